@@ -1,4 +1,4 @@
-"""Print pyproject.toml's build requirements, one a line: the one list that pip, setup.sh and CMake share."""
+"""Print the build requirements of pyproject.toml, the one list that pip and CMake share."""
 
 from pathlib import Path
 

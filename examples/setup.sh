@@ -1,0 +1,52 @@
+#!/bin/sh
+# setup.sh [EXTRA,...]: leaves .venv with this package, its test and demo packages, and those of the extras named.
+# Does nothing when the sources are those of the last time.
+set -eu
+cd "$(dirname "$0")/.."
+extras="test${1:+,$1}"
+
+# The stamp holds a checksum over contents, not times: a checkout of other branches and back rebuilds nothing.
+stamp=".venv/.saltus-$extras"
+sources="$(find CMakeLists.txt pyproject.toml cpp python/bindings python/saltus urdf examples/setup.sh \
+  -type f ! -name '*.pyc' -exec cksum {} + | LC_ALL=C sort | cksum)"
+if [ -x .venv/bin/python ] && [ -e "$stamp" ] && [ "$(cat "$stamp")" = "$sources" ]; then
+  exit 0
+fi
+
+# True if there are a C++ compiler, and a Python that can make environments and has its headers.
+machine_is_ready() {
+  [ -n "${CXX:-}" ] || command -v c++ >/dev/null || command -v g++ >/dev/null || command -v clang++ >/dev/null || return 1
+  python3 - 2>/dev/null <<'PY'
+import ensurepip, pathlib, sys, sysconfig, venv
+headers = pathlib.Path(sysconfig.get_paths()["include"], "Python.h")
+sys.exit(0 if headers.exists() and sys.version_info >= (3, 10) else 1)
+PY
+}
+
+if ! machine_is_ready; then
+  packages="g++ python3-venv python3-dev ca-certificates"
+  if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
+    echo "setup: apt-get installs $packages" >&2
+    apt-get update -qq
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >/dev/null
+  fi
+  if ! machine_is_ready; then
+    echo "setup: a C++ compiler or Python >= 3.10 with its headers is missing; on Debian and Ubuntu run first:" >&2
+    echo "  sudo apt-get install $packages" >&2
+    exit 1
+  fi
+fi
+
+.venv/bin/python -c '' 2>/dev/null || python3 -m venv --clear .venv
+pip() { .venv/bin/python -m pip install -q --disable-pip-version-check "$@"; }
+
+# The build's own packages go into .venv, and pip builds without isolation: an isolated build gets new paths each
+# time, so that every edit would compile everything.
+tools=""
+command -v cmake >/dev/null && cmake -P cpp/cmake/check_version.cmake 2>/dev/null || tools="cmake"
+command -v ninja >/dev/null || tools="$tools ninja"
+echo "setup: installing into .venv and compiling; the first time takes a few minutes" >&2
+.venv/bin/python cpp/cmake/build_requires.py >.venv/build-requires.txt
+pip -r .venv/build-requires.txt $tools
+pip --no-build-isolation ".[$extras]"
+echo "$sources" >"$stamp"

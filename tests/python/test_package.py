@@ -1,0 +1,75 @@
+"""The installed package, and find_package(saltus) from a project of somebody else's."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, cmake, configure, package_prefix
+
+import saltus
+
+CONSUMER = ROOT / "tests" / "consumer"
+
+
+def build_and_run_consumer(build: Path, prefix: str) -> str:
+    configure(CONSUMER, build, prefix, "-DCMAKE_BUILD_TYPE=Debug")
+    cmake("--build", build)
+    program = build / "consumer"
+    return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+
+
+def test_version_is_that_of_the_cmake_project():
+    code = (ROOT / "CMakeLists.txt").read_text()
+    version = re.search(r"project\(saltus VERSION ([0-9.]+)", code).group(1)
+    assert saltus.__version__ == version == importlib.metadata.version("saltus")
+
+
+def test_cpp_project_finds_the_pip_package(tmp_path):
+    command = [sys.executable, "-m", "saltus", "cmake-dir"]
+    prefix = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
+    assert Path(prefix).resolve() == package_prefix()
+    assert build_and_run_consumer(tmp_path, prefix) == "3 links fall\n"
+
+
+def test_cpp_project_finds_an_installed_tree(tmp_path):
+    # The build folder stays, so that a second run compiles only what changed; -O0, because
+    # here the install counts.
+    build, prefix = ROOT / "build" / "install-test", tmp_path / "prefix"
+    python = f"-DPython_EXECUTABLE={sys.executable}"
+    configure(ROOT, build, sys.prefix, "-DCMAKE_BUILD_TYPE=Debug", python)
+    cmake("--build", build)
+    cmake("--install", build, "--prefix", prefix)
+    cmeel = cmeel_prefix()
+    search = f"{prefix};{cmeel}" if cmeel else str(prefix)
+    assert build_and_run_consumer(tmp_path / "build", search) == "3 links fall\n"
+
+
+def cmeel_prefix() -> Path | None:
+    """Return where pip keeps the C++ packages, None if the system's are used."""
+    prefix = package_prefix().parent / "cmeel.prefix"
+    return prefix if prefix.exists() else None
+
+
+def test_missing_eigen_is_said_with_its_cure(tmp_path):
+    with pytest.raises(subprocess.CalledProcessError) as error:
+        no_eigen = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
+        configure(CONSUMER, tmp_path, str(package_prefix()), no_eigen)
+    assert "pip install 'saltus[cpp]'" in error.value.stdout
+
+
+@pytest.mark.skipif(shutil.which("readelf") is None, reason="binutils are not installed")
+def test_library_looks_only_beside_itself_for_others():
+    library = package_prefix() / "lib" / "libsaltus.so"
+    if not library.exists():
+        pytest.skip("not an ELF platform")
+    command = ["readelf", "-d", library]
+    dynamic = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    assert re.findall(r"\((RPATH|RUNPATH)\).*\[(.*)\]", dynamic) == [
+        ("RPATH", "$ORIGIN/../../cmeel.prefix/lib")
+    ]
