@@ -110,7 +110,7 @@ def list_cases(program: Path) -> list[str]:
 
 
 def parse_output(text: str) -> tuple[dict[str, tuple[str, str]], str | None]:
-    """Return {case: (OK | FAILED | SKIPPED, text)} and the case that never ended, if one did not."""
+    """Return {case: (OK | FAILED | SKIPPED, text)} and the case that did not end, if any."""
     results: dict[str, tuple[str, str]] = {}
     running, begin = None, 0
     for match in RESULT.finditer(text):

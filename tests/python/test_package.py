@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, cmake, configure, package_prefix
 
 import saltus
+from conftest import ROOT, cmake, configure, package_prefix
 
 CONSUMER = ROOT / "tests" / "consumer"
 
@@ -57,8 +57,8 @@ def cmeel_prefix() -> Path | None:
 
 
 def test_missing_eigen_is_said_with_its_cure(tmp_path):
+    no_eigen = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
     with pytest.raises(subprocess.CalledProcessError) as error:
-        no_eigen = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
         configure(CONSUMER, tmp_path, str(package_prefix()), no_eigen)
     assert "pip install 'saltus[cpp]'" in error.value.stdout
 
