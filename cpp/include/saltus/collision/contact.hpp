@@ -1,0 +1,54 @@
+// From shapes to coordinates: phi_q and phi_qq along the chain of joints between two bodies.
+//
+// Theory, section 7. Chain from b to a; s_k = +1 on a's branch, -1 on b's; common ancestors drop
+// out. P on the contact line, both about the reference point O_k of joint k's tree:
+//
+//   phi_q[k]    = s_k S_k.N,  N = [P x n; n]
+//   phi_qq[i,l] = u_i^T F u_l + n.(s_i w_i x u_l),  u_k = s_k (w_k x P + v_k), i at or nearer to b
+#pragma once
+
+#include <vector>
+
+#include "saltus/collision/gap.hpp"
+#include "saltus/tree/kinematics.hpp"
+
+namespace saltus {
+
+/// One joint between the two bodies of a pair.
+struct ChainJoint {
+  int joint;
+  double sign;  ///< +1 on a's branch, -1 on b's
+};
+
+/// A shape and the joint frame that carries it (-1: the world).
+struct PlacedShape {
+  Shape shape;
+  int joint = -1;
+  Pose X_JG;         ///< placement in the joint's frame
+  int link = 0;      ///< index of the link it belongs to
+  std::string name;  ///< unique: the link's name, "#k" added where a link has several shapes
+};
+
+/// Two shapes whose gap is watched; a is the sphere where only one is.
+struct Pair {
+  int a, b;                       ///< indices of shapes
+  std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
+  double touch;                   ///< [m] epsilon_phi: |phi| below this is touching
+};
+
+/// Joints between two joint frames (-1: the world), ordered from b to a.
+SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a);
+
+/// Gap of a pair at the configuration in `kin`. Needs set_configuration.
+SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin,
+                           const std::vector<PlacedShape>& shapes, const Pair& pair);
+
+/// Adds the pair's gradient to `phi_q` (n_q), through the drives of mimic joints.
+SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                    const Gap& gap, Eigen::Ref<VecX> phi_q);
+
+/// Adds the pair's Hessian to `phi_qq` (n_q, n_q).
+SALTUS_EXPORT void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                   const Gap& gap, Eigen::Ref<MatX> phi_qq);
+
+}  // namespace saltus

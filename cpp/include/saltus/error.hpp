@@ -1,0 +1,39 @@
+// The exceptions that saltus throws. Everything a user can get wrong ends in one of these.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "saltus/export.hpp"
+
+namespace saltus {
+
+/// Bad input: a file, a name, a shape of array, a number that no model can have.
+/// The message names the culprit, its value and the alternatives. Python: `ModelError(ValueError)`.
+class SALTUS_EXPORT ModelError : public std::invalid_argument {
+ public:
+  explicit ModelError(const std::string& what, std::string element = "", std::string name = "")
+      : std::invalid_argument(what), element(std::move(element)), name(std::move(name)) {}
+  std::string element;  ///< kind of the culprit where it has a name: "link", "joint"
+  std::string name;     ///< its name; a reader of files finds the line by these two
+};
+
+/// A step that could not be made; the state it started from is unchanged.
+/// Python: `StepError(RuntimeError)` with the same attributes.
+class SALTUS_EXPORT StepError : public std::runtime_error {
+ public:
+  StepError(const std::string& what, double t, double residual, int iterations)
+      : std::runtime_error(what), t(t), residual(residual), iterations(iterations) {}
+  double t;         ///< [s] where the step (or arc) began
+  double residual;  ///< [largest momentum] scaled residual when the solver gave up
+  int iterations;   ///< Newton iterations, arcs or impulses spent
+};
+
+/// A cascade of impulses that does not end: bodies jammed between others. Python: `JammedError`.
+class SALTUS_EXPORT JammedError : public StepError {
+ public:
+  using StepError::StepError;
+};
+
+}  // namespace saltus

@@ -1,0 +1,117 @@
+// A model: frozen, checked, cheap to copy. Made by ModelBuilder; the floors below meet here.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "saltus/collision/contact.hpp"
+#include "saltus/error.hpp"
+#include "saltus/lagrangian/partials.hpp"
+#include "saltus/model/state.hpp"
+
+namespace saltus {
+
+enum class JointType {
+  fixed,
+  revolute,
+  continuous,
+  prismatic,
+  helical,
+  planar,     ///< x, y, yaw in the plane normal to the axis
+  floating,   ///< x, y, z, then yaw, pitch, roll (singular at pitch = +-pi/2)
+  spherical,  ///< yaw, pitch, roll
+};
+
+/// A rigid link: a frame that moves with a joint frame.
+struct Link {
+  std::string name;
+  int joint = -1;     ///< index in the tree; -1: fixed to the world
+  Pose X_JL;          ///< the link's frame in the joint's frame
+  double mass = 0;    ///< [kg] own mass
+};
+
+/// A generalized coordinate and what the file says of it. Limits, damping and friction are kept
+/// for the user; the stepper does not apply them.
+struct Coordinate {
+  std::string name;             ///< the joint's name; `<joint>_x` ... for joints of several
+  std::string joint;            ///< name of the joint that it belongs to
+  bool angular = true;          ///< [rad] or [m]
+  double lower, upper;          ///< [rad | m] infinite where there is none
+  double velocity, effort;      ///< limits, infinite where there is none
+  double damping = 0, friction = 0;  ///< [N m s/rad | N s/m], [N m | N]
+};
+
+/// A joint as its author named it, after multi-coordinate joints are composed.
+struct JointInfo {
+  std::string name;
+  JointType type;
+  std::string parent, child;      ///< links
+  std::vector<int> frames;        ///< joints of the tree, outermost last; none where fixed
+  std::vector<int> coordinates;   ///< those that move it
+};
+
+struct ModelData {
+  std::string name;
+  Tree tree;
+  MassModel mass;
+  std::vector<Link> links;
+  std::vector<JointInfo> joints;
+  std::vector<Coordinate> coordinates;   ///< (n_q)
+  std::vector<PlacedShape> shapes;
+  std::vector<Pair> pairs;
+  std::vector<std::string> warnings;     ///< what was understood but is not used
+  std::string source;                    ///< text the model was read from; "" if built in code
+};
+
+/// Gaps of all pairs at one configuration, dense, for people.
+struct Gaps {
+  std::vector<std::string> names;                          ///< (m) "a ~ b"
+  VecX phi;                                                ///< (m) [m]
+  MatX phi_q;                                              ///< (m, n_q)
+  std::vector<MatX> phi_qq;                                ///< (m) of (n_q, n_q)
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> normal, p_WA, p_WB;  ///< (m, 3)
+};
+
+class SALTUS_EXPORT Model {
+ public:
+  explicit Model(ModelData data) : data_(std::make_shared<const ModelData>(std::move(data))) {}
+  const ModelData* operator->() const { return data_.get(); }
+  const ModelData& operator*() const { return *data_; }
+
+  int n_q() const { return data_->tree.coordinates; }
+
+  /// State from values by coordinate name (others 0); `v` are velocities, p = M(q) v.
+  /// @throws ModelError on an unknown name or a value that is not finite.
+  State state(const std::map<std::string, double>& q = {},
+              const std::map<std::string, double>& v = {}, double t = 0) const;
+  /// The same from arrays (n_q).
+  State state(const VecRef& q, const VecRef& v, double t = 0) const;
+
+  VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_q)
+  LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
+  MatX mass_matrix(const VecRef& q) const;
+  Gaps gaps(const VecRef& q) const;
+  double kinetic_energy(const State& state) const;    ///< [J]
+  double potential_energy(const VecRef& q) const;     ///< [J] zero at the world's origin
+  Pose X_WL(const VecRef& q, int link) const;         ///< pose of a link in the world
+
+  int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
+  int link(const std::string& name) const;        ///< index, or ModelError with the names there are
+  std::string pair_name(int pair) const;          ///< "a ~ b"
+
+  /// A copy of this model without any pair: bodies pass through each other.
+  Model without_collisions() const;
+
+ private:
+  std::shared_ptr<const ModelData> data_;
+};
+
+/// @throws ModelError unless x has n entries, all finite; `what` names the array in the message.
+SALTUS_EXPORT void check_vector(const VecRef& x, int n, const std::string& what);
+
+/// "a, b, c": the alternatives in an error message, at most 20 of them.
+SALTUS_EXPORT std::string list_names(const std::vector<std::string>& names);
+
+}  // namespace saltus

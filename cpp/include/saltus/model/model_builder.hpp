@@ -1,0 +1,93 @@
+// Describe a model link by link, then freeze it with build(). The only class with add_ verbs.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/model/model.hpp"
+
+namespace saltus {
+
+struct LinkSpec {
+  std::string name;
+  BodyInertia inertia = {};  ///< in the link's frame; the root link's is not used (it cannot move)
+};
+
+/// This joint's displacement is `multiplier * (displacement of joint) + offset`.
+struct Mimic {
+  std::string joint;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+struct JointSpec {
+  std::string name;
+  JointType type = JointType::revolute;
+  std::string parent, child;          ///< links
+  Pose X_PJ = {};                     ///< joint (= child link) frame in the parent link's frame
+  Vec3 axis = Vec3::UnitX();          ///< in the joint's frame, any length but 0
+  double pitch = 0;                   ///< [m/rad] helical only
+  std::optional<Mimic> mimic = {};    ///< one-coordinate joints only
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double velocity = std::numeric_limits<double>::infinity();
+  double effort = std::numeric_limits<double>::infinity();
+  double damping = 0, friction = 0;
+};
+
+/// Local mistakes throw at once, in add_ and set_; those that need the whole (unknown parents,
+/// cycles, two roots, joints that move no mass) in check() and build(). All are ModelError and
+/// carry the element and its name.
+class SALTUS_EXPORT ModelBuilder {
+ public:
+  /// `root` is the link that is fixed to the world; its frame is the world frame.
+  explicit ModelBuilder(std::string name = "model", std::string root = "world");
+
+  ModelBuilder& set_gravity(const Vec3& gravity);
+  ModelBuilder& set_source(std::string text);
+
+  ModelBuilder& add_link(const LinkSpec& link);
+  ModelBuilder& add_joint(const JointSpec& joint);
+  /// Shapes are named after their link, "#2" added for its second, and so on.
+  ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
+  /// The solid below the plane normal.x = offset, fixed to the world; `name` as in pair names.
+  ModelBuilder& add_half_space(const std::string& name, const Vec3& normal, double offset = 0);
+  /// No gap is watched between these links.
+  ModelBuilder& add_exclusion(const std::string& link_a, const std::string& link_b);
+  ModelBuilder& add_warning(std::string text);
+
+  void check() const;  ///< the checks of build() alone
+  Model build() const;
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  struct ShapeSpec {
+    std::string link, name;
+    Shape shape;
+    Pose X_LG;
+  };
+  struct Exclusion {
+    std::string a, b;
+  };
+  std::string name_, root_, source_;
+  Vec3 gravity_ = Vec3(0, 0, -9.81);
+  std::vector<LinkSpec> links_;
+  std::vector<JointSpec> joints_;
+  std::vector<ShapeSpec> shapes_;
+  std::vector<Exclusion> exclusions_;
+  std::vector<std::string> warnings_;
+
+  friend class Assembly;  // build()'s worker, model/assembly.cpp
+};
+
+/// @throws ModelError where no body can have this mass or inertia: negative mass, not symmetric,
+/// a negative principal moment, or one greater than the sum of the other two.
+SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
+
+/// Inertia of a homogeneous ball about its centre, a frequent need.
+SALTUS_EXPORT BodyInertia solid_sphere(double mass, double radius);
+
+}  // namespace saltus

@@ -1,0 +1,18 @@
+// The state of a model: a value. Keep it, compare it, go back to it by copying it.
+#pragma once
+
+#include "saltus/spatial/spatial.hpp"
+
+namespace saltus {
+
+struct State {
+  double t = 0;  ///< [s]
+  VecX q;        ///< (n_q) [rad | m]
+  VecX p;        ///< (n_q) [kg m^2 rad/s | kg m/s] conjugate momenta, p = L_v
+
+  bool operator==(const State& other) const {
+    return t == other.t && q == other.q && p == other.p;
+  }
+};
+
+}  // namespace saltus

@@ -1,0 +1,32 @@
+// Many steps in a row, recorded.
+#pragma once
+
+#include <functional>
+
+#include "saltus/rollout/trajectory.hpp"
+#include "saltus/variational/stepper.hpp"
+
+namespace saltus {
+
+struct SimulateOptions {
+  double h = 0.01;                          ///< [s]
+  ImpactLaw law = ImpactLaw::nodal_energy;
+  bool collisions = true;
+  int record_every = 1;                     ///< steps between recorded rows
+  StepOptions step = {};                    ///< bounds and tolerances; h, law, collisions above win
+  /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
+  /// run, which then holds what was done so far.
+  std::function<bool(double)> progress = {};
+};
+
+/// Runs round(duration / h) steps from `start`; row 0 is `start`.
+/// @throws ModelError on duration or h not positive and finite, or a duration that is no whole
+///         number of steps (to 1e-9); what Stepper::advance throws.
+SALTUS_EXPORT Trajectory simulate(const Model& model, const State& start, double duration,
+                                  const SimulateOptions& options = {});
+
+/// Energies at one state; the shadow energy H - h^2 kappa / 24 is what a fixed step h conserves to
+/// O(h^4), kappa = a^T M a - v^T L_qq v with a the free acceleration (theory, section 5).
+SALTUS_EXPORT Energies energies(const Model& model, const State& state, double h);
+
+}  // namespace saltus

@@ -1,0 +1,35 @@
+// A recorded motion.
+#pragma once
+
+#include <vector>
+
+#include "saltus/model/model.hpp"
+#include "saltus/variational/report.hpp"
+
+namespace saltus {
+
+/// Rows are recorded states. `impacts[i].first` counts into `impulses` of the whole trajectory.
+struct Trajectory {
+  Model model;
+  StepOptions options;
+  VecX t;                         ///< (rows) [s]
+  MatX q, v, p;                   ///< (rows, n_q)
+  VecX kinetic, potential;        ///< (rows) [J]
+  VecX shadow;                    ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
+  std::vector<Impact> impacts;    ///< in order of time
+  std::vector<Impulse> impulses;
+  long iterations = 0;            ///< Newton iterations in all
+  double residual = 0;            ///< [largest momentum] the worst of any step
+  bool complete = false;          ///< false: stopped on request before `duration`
+
+  VecX total() const { return kinetic + potential; }
+  /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).
+  double energy_error() const;
+};
+
+/// Energies of one state.
+struct Energies {
+  double kinetic, potential, shadow;  ///< [J]
+};
+
+}  // namespace saltus

@@ -1,0 +1,9 @@
+// Everything.
+#pragma once
+
+#include "saltus/collision/gap.hpp"
+#include "saltus/model/model_builder.hpp"
+#include "saltus/rollout/simulate.hpp"
+#include "saltus/urdf/load_urdf.hpp"
+#include "saltus/variational/cascade.hpp"
+#include "saltus/variational/stepper.hpp"

@@ -1,0 +1,51 @@
+// Impulses at one instant: while some contact approaches, reflect on one that does.
+//
+// Paper, section III-D and (4), (5); theory, section 6. In contact space, with rows n_i = phi_q of
+// the contacts, u = N v and G = N M^-1 N^T:
+//
+//   lambda_i = -(1 + e) u_i / G_ii,   u += G(:, i) lambda_i       until all u >= -epsilon
+//
+// Ends after finitely many impulses if e = 1 and the cone {v: N v >= 0} has an interior.
+#pragma once
+
+#include <vector>
+
+#include "saltus/error.hpp"
+#include "saltus/spatial/spatial.hpp"
+#include "saltus/variational/report.hpp"
+
+namespace saltus {
+
+/// Which of the approaching contacts is next.
+enum class ImpactOrder {
+  fastest,  ///< the most negative u_i / sqrt(G_ii); ties go to the lowest index
+  index,    ///< the lowest index
+};
+
+struct CascadeOptions {
+  double restitution = 1;  ///< e in [0, 1]
+  ImpactOrder order = ImpactOrder::fastest;
+  int max_impulses = 100000;
+};
+
+/// Contact-space cascade in place.
+/// @param G (m, m) N M^-1 N^T; @param u (m) gap rates, changed; @param rest (m) epsilon_u >= 0
+/// @param impulses appended: (index of contact, lambda) in order
+/// @return false when max_impulses did not suffice.
+SALTUS_EXPORT bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
+                           const CascadeOptions& options, std::vector<Impulse>& impulses);
+
+struct ImpactOutcome {
+  VecX v;                        ///< (n) velocity after
+  std::vector<Impulse> impulses; ///< `pair` is the row of N
+};
+
+/// The continuous-time problem of the paper's section II, for any mass matrix and normals.
+/// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
+/// @throws ModelError on shapes that do not fit, values that are not finite, M not positive
+///         definite, e outside [0, 1]; JammedError when the cascade does not end.
+SALTUS_EXPORT ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M,
+                                           const Eigen::Ref<const MatX>& N, const VecRef& v,
+                                           const CascadeOptions& options = {});
+
+}  // namespace saltus

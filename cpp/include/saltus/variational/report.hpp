@@ -1,0 +1,36 @@
+// What happened in a step.
+#pragma once
+
+#include <vector>
+
+#include "saltus/variational/options.hpp"
+
+namespace saltus {
+
+/// One reflection: p += lambda phi_q of this pair.
+struct Impulse {
+  int pair;       ///< index in model->pairs
+  double lambda;  ///< [N s] >= 0
+};
+
+/// All impulses at one instant.
+struct Impact {
+  double t;       ///< [s]
+  int first;      ///< its impulses are impulses[first, first + count), in order
+  int count;
+  int contacts;   ///< pairs that touched
+  ImpactLaw law;  ///< the law that was used
+  bool fallback;  ///< discrete_energy asked for, nodal_energy used (theory, section 5, warning a)
+};
+
+/// Written by Stepper; valid until its next step.
+struct StepReport {
+  int iterations = 0;    ///< Newton iterations, over all arcs tried
+  int arcs = 0;          ///< arcs that the step is made of; 1 without impacts
+  int sustained = 0;     ///< arcs' contacts that were held closed by a force
+  double residual = 0;   ///< [largest momentum] of the worst arc
+  std::vector<Impact> impacts;
+  std::vector<Impulse> impulses;
+};
+
+}  // namespace saltus

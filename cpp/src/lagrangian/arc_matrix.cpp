@@ -1,0 +1,114 @@
+#include "saltus/lagrangian/arc_matrix.hpp"
+
+#include <cmath>
+
+namespace saltus {
+namespace {
+
+Vec9 nine(const Vec6& a, const Vec3& b) {
+  Vec9 x;
+  x << a, b;
+  return x;
+}
+
+bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
+                     ArcMatrix& J) {
+  const double half = tau / 2, quarter = -tau * tau / 4;
+  for (Mat9& P : J.P) P.setZero();
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    const JointMotion& m = kin.joint[i];
+    const JointComposite& c = comp.joint[i];
+    ArcMatrix::Row& r = J.joint[i];
+    const Mat9& P = J.P[i];
+    r.s = nine(m.S + half * m.W, angular(m.S));
+    r.t = nine(m.S - half * m.W, quarter * angular(m.S));
+    r.gain.noalias() = P * r.s;
+    r.gain += nine(c.U + half * c.F, c.G);
+    r.row.noalias() = P.transpose() * r.t;
+    r.row += nine(c.U - half * c.F, quarter * c.G);
+    const double D = r.t.dot(r.gain);
+    if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
+    r.inverse_D = 1 / D;
+    if (tree.parent[i] < 0) continue;
+    Mat9& P_parent = J.P[tree.parent[i]];
+    P_parent += P;
+    P_parent.noalias() -= r.gain * (r.row * r.inverse_D).transpose();
+  }
+  return true;
+}
+
+void solve_sweep(const Tree& tree, ArcMatrix& J, Eigen::Ref<VecX> x) {
+  for (Vec9& c : J.c) c.setZero();
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    const ArcMatrix::Row& r = J.joint[i];
+    J.e[i] = x[i] - r.t.dot(J.c[i]);
+    if (tree.parent[i] >= 0) {
+      J.c[tree.parent[i]] += J.c[i] + r.gain * (J.e[i] * r.inverse_D);
+    }
+  }
+  for (int i = 0; i < tree.joints(); ++i) {
+    const ArcMatrix::Row& r = J.joint[i];
+    const int parent = tree.parent[i];
+    if (parent < 0) {
+      x[i] = J.e[i] * r.inverse_D;
+      J.a[i] = r.s * x[i];
+    } else {
+      x[i] = (J.e[i] - r.row.dot(J.a[parent])) * r.inverse_D;
+      J.a[i] = J.a[parent] + r.s * x[i];
+    }
+  }
+}
+
+}  // namespace
+
+ArcMatrix::ArcMatrix(const Tree& tree)
+    : joint(tree.parent.size()),
+      P(tree.parent.size()),
+      c(tree.parent.size()),
+      a(tree.parent.size()),
+      e(tree.joints()) {
+  if (tree.one_to_one) return;
+  dense.setIdentity(tree.coordinates, tree.coordinates);
+  lu.compute(dense);  // allocates here, so that factorize does not
+}
+
+bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
+               ArcMatrix& J) {
+  if (tree.one_to_one) return factorize_sweep(tree, kin, comp, tau, J);
+  J.dense.setZero();
+  add_dense(tree, kin, comp, tau, J.dense);
+  J.lu.compute(J.dense);
+  const auto pivots = J.lu.matrixLU().diagonal().array();
+  return pivots.isFinite().all() && (pivots.abs() > 0).all();
+}
+
+void solve(const Tree& tree, ArcMatrix& J, Eigen::Ref<VecX> x) {
+  if (tree.one_to_one) {
+    solve_sweep(tree, J, x);
+  } else {
+    J.e.head(x.size()) = J.lu.solve(x);
+    x = J.e.head(x.size());
+  }
+}
+
+void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
+               MatX& out) {
+  const double half = tau / 2, quarter = tau * tau / 4;
+  for (int j = 0; j < tree.joints(); ++j) {
+    const JointComposite& c = comp.joint[j];
+    const Drive& dj = tree.drive[j];
+    const Vec6 plus = c.U + half * c.F, minus = c.U - half * c.F;
+    for (int i = j; i >= 0; i = tree.parent[i]) {
+      const JointMotion& m = kin.joint[i];
+      const Drive& di = tree.drive[i];
+      const double scale = di.multiplier * dj.multiplier;
+      const double gravity = quarter * angular(m.S).dot(c.G);
+      out(di.coordinate, dj.coordinate) += scale * ((m.S - half * m.W).dot(plus) - gravity);
+      if (i != j) {
+        out(dj.coordinate, di.coordinate) += scale * ((m.S + half * m.W).dot(minus) - gravity);
+      }
+    }
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,56 @@
+#include "saltus/lagrangian/composite.hpp"
+
+namespace saltus {
+namespace {
+
+Inertia world_inertia(const BodyInertia& body, const JointMotion& m) {
+  return inertia_about(body.mass, m.p + m.R * body.c_J, m.R * body.I_J * m.R.transpose());
+}
+
+}  // namespace
+
+BodyInertia weld(const BodyInertia& a, const BodyInertia& b) {
+  if (a.mass + b.mass == 0) return {0, Vec3::Zero(), a.I_J + b.I_J};
+  BodyInertia both;
+  both.mass = a.mass + b.mass;
+  both.c_J = (a.mass * a.c_J + b.mass * b.c_J) / both.mass;
+  both.I_J = inertia_about(a.mass, a.c_J - both.c_J, a.I_J).I +
+             inertia_about(b.mass, b.c_J - both.c_J, b.I_J).I;
+  return both;
+}
+
+BodyInertia transform(const Pose& X_PB, const BodyInertia& body_B) {
+  return {body_B.mass, X_PB * body_B.c_J, X_PB.R * body_B.I_J * X_PB.R.transpose()};
+}
+
+void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    JointComposite& c = comp.joint[i];
+    c.Ic = world_inertia(mass.body[i], kin.joint[i]);
+    c.H = c.Ic * kin.joint[i].V;
+    c.g = spatial(c.Ic.h.cross(mass.gravity), c.Ic.mass * mass.gravity);
+  }
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    const JointMotion& m = kin.joint[i];
+    const JointComposite& c = comp.joint[i];
+    comp.L_v[i] = m.S.dot(c.H);
+    comp.L_q[i] = m.W.dot(c.H) + m.S.dot(c.g);
+    if (tree.parent[i] < 0) continue;
+    comp.joint[tree.parent[i]].H += c.H;
+    comp.joint[tree.parent[i]].g += c.g;
+  }
+}
+
+void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
+                 Composite& comp) {
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    const JointMotion& m = kin.joint[i];
+    JointComposite& c = comp.joint[i];
+    c.U = c.Ic * m.S;
+    c.F = c.Ic * m.W + cross_force(m.S, c.H);
+    c.G = linear(c.U).cross(mass.gravity);
+    if (tree.parent[i] >= 0) comp.joint[tree.parent[i]].Ic += c.Ic;
+  }
+}
+
+}  // namespace saltus

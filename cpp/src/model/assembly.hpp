@@ -1,0 +1,58 @@
+// build()'s worker: orders the links, composes joints into frames, welds masses, lists pairs.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "saltus/model/model_builder.hpp"
+
+namespace saltus {
+
+class Assembly {
+ public:
+  explicit Assembly(const ModelBuilder& builder) : b_(builder) {}
+
+  void check();
+  Model build();
+
+ private:
+  /// A frame under construction: placement X_JF in tree joint J.
+  struct Place {
+    int joint = -1;
+    Pose X_JF;
+  };
+
+  void find_links();                     // parents, children; unknown names, two parents
+  void order_joints();                   // depth first from the root; cycles, two roots
+  void resolve_mimic();                  // flattens chains of mimics into drives
+  void number_coordinates();
+  void add_frames();                     // joints -> tree, links -> places
+  void add_masses();
+  void check_masses() const;             // joints that move no mass
+  void add_shapes();
+  void add_pairs();
+
+  int link_index(const std::string& name, const std::string& joint, const std::string& role) const;
+  Place add_frame(const Place& at, const Vec3& axis, Joint joint, int spec, int coordinate);
+  Place add_joint_frames(const Place& parent, int spec);
+  bool is_adjacent(int link_a, int link_b) const;
+  bool is_watched(const PlacedShape& a, const PlacedShape& b) const;
+
+  const ModelBuilder& b_;
+  ModelData m_;
+  std::map<std::string, int> link_;      // name -> index
+  std::map<std::string, int> joint_;     // name -> index of spec
+  std::vector<int> parent_joint_;        // (links) spec of the joint above, -1 at the root
+  std::vector<std::vector<int>> below_;  // (links) specs of the joints that start there
+  std::vector<int> order_;               // specs, depth first
+  std::vector<Drive> drive_;             // (specs) multiplier and offset on the base joint
+  std::vector<int> base_;                // (specs) the joint whose coordinate drives this one
+  std::vector<int> first_coordinate_;    // (specs)
+  std::vector<Place> place_;             // (links)
+  std::vector<int> group_;               // (links) first link of those welded together
+  std::set<std::pair<int, int>> excluded_;
+};
+
+}  // namespace saltus

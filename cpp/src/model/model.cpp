@@ -1,0 +1,171 @@
+#include "saltus/model/model.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/lagrangian/energy.hpp"
+
+namespace saltus {
+namespace {
+
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+template <class Items>
+int index_of(const Items& items, const std::string& kind, const std::string& name) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].name == name) return static_cast<int>(i);
+  }
+  throw ModelError("no " + kind + " \"" + name + "\"; there are " + list_names(names_of(items)),
+                   kind, name);
+}
+
+/// Kinematics and composites at one (q, v), on the heap: for the dense interface only.
+struct Evaluation {
+  Evaluation(const ModelData& model, const VecRef& q, const VecRef& v)
+      : kin(model.tree), comp(model.tree) {
+    set_configuration(model.tree, q, kin);
+    set_velocity(model.tree, v, kin);
+    first_pass(model.tree, model.mass, kin, comp);
+    second_pass(model.tree, model.mass, kin, comp);
+  }
+  Kinematics kin;
+  Composite comp;
+};
+
+VecX from_names(const Model& model, const std::map<std::string, double>& values) {
+  VecX x = VecX::Zero(model.n_q());
+  for (const auto& [name, value] : values) x[model.coordinate(name)] = value;
+  return x;
+}
+
+}  // namespace
+
+std::string list_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 20;
+  if (names.empty()) return "none";
+  std::string list;
+  for (std::size_t i = 0; i < names.size() && i < most; ++i) list += (i ? ", " : "") + names[i];
+  if (names.size() > most) list += ", ... (" + std::to_string(names.size()) + " in all)";
+  return list;
+}
+
+void check_vector(const VecRef& x, int n, const std::string& what) {
+  if (x.size() != n) {
+    throw ModelError(what + " has " + std::to_string(x.size()) + " entries; the model has " +
+                     std::to_string(n) + " coordinates");
+  }
+  for (int i = 0; i < n; ++i) {
+    if (std::isfinite(x[i])) continue;
+    std::ostringstream text;
+    text << what << "[" << i << "] = " << x[i] << " is not finite";
+    throw ModelError(text.str());
+  }
+}
+
+int Model::coordinate(const std::string& name) const {
+  return index_of(data_->coordinates, "coordinate", name);
+}
+
+int Model::link(const std::string& name) const { return index_of(data_->links, "link", name); }
+
+std::string Model::pair_name(int pair) const {
+  const Pair& p = data_->pairs.at(static_cast<std::size_t>(pair));
+  return data_->shapes[p.a].name + " ~ " + data_->shapes[p.b].name;
+}
+
+State Model::state(const std::map<std::string, double>& q, const std::map<std::string, double>& v,
+                   double t) const {
+  return state(from_names(*this, q), from_names(*this, v), t);
+}
+
+State Model::state(const VecRef& q, const VecRef& v, double t) const {
+  check_vector(q, n_q(), "q");
+  check_vector(v, n_q(), "v");
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
+  return {t, q, lagrangian(q, v).L_v};
+}
+
+VecX Model::velocity(const State& state) const {
+  check_vector(state.q, n_q(), "state.q");
+  check_vector(state.p, n_q(), "state.p");
+  const Evaluation at(*data_, state.q, VecX::Zero(n_q()));
+  ArcMatrix M(data_->tree);
+  VecX v = state.p;
+  if (!factorize(data_->tree, at.kin, at.comp, 0, M)) {
+    throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
+  }
+  solve(data_->tree, M, v);
+  return v;
+}
+
+LagrangianPartials Model::lagrangian(const VecRef& q, const VecRef& v) const {
+  check_vector(q, n_q(), "q");
+  check_vector(v, n_q(), "v");
+  return saltus::lagrangian(data_->tree, data_->mass, q, v);
+}
+
+MatX Model::mass_matrix(const VecRef& q) const {
+  check_vector(q, n_q(), "q");
+  return saltus::mass_matrix(data_->tree, data_->mass, q);
+}
+
+double Model::kinetic_energy(const State& state) const {
+  return 0.5 * state.p.dot(velocity(state));
+}
+
+double Model::potential_energy(const VecRef& q) const {
+  check_vector(q, n_q(), "q");
+  Kinematics kin(data_->tree);
+  set_configuration(data_->tree, q, kin);
+  return saltus::potential_energy(data_->tree, data_->mass, kin);
+}
+
+Pose Model::X_WL(const VecRef& q, int link) const {
+  check_vector(q, n_q(), "q");
+  const Link& l = data_->links.at(static_cast<std::size_t>(link));
+  Kinematics kin(data_->tree);
+  set_configuration(data_->tree, q, kin);
+  return kin.X_WJ(data_->tree, l.joint) * l.X_JL;
+}
+
+Gaps Model::gaps(const VecRef& q) const {
+  check_vector(q, n_q(), "q");
+  const ModelData& m = *data_;
+  Kinematics kin(m.tree);
+  set_configuration(m.tree, q, kin);
+  const auto rows = static_cast<Eigen::Index>(m.pairs.size());
+  Gaps out;
+  out.phi.resize(rows);
+  out.phi_q.setZero(rows, n_q());
+  out.phi_qq.assign(m.pairs.size(), MatX::Zero(n_q(), n_q()));
+  out.normal.resize(rows, 3);
+  out.p_WA.resize(rows, 3);
+  out.p_WB.resize(rows, 3);
+  for (int i = 0; i < rows; ++i) {
+    const Gap g = pair_gap(m.tree, kin, m.shapes, m.pairs[i]);
+    out.names.push_back(pair_name(i));
+    out.phi[i] = g.phi;
+    out.normal.row(i) = g.n_W;
+    out.p_WA.row(i) = g.p_WA;
+    out.p_WB.row(i) = g.p_WB;
+    VecX row = VecX::Zero(n_q());
+    add_gap_gradient(m.tree, kin, m.pairs[i], g, row);
+    out.phi_q.row(i) = row;
+    add_gap_hessian(m.tree, kin, m.pairs[i], g, out.phi_qq[i]);
+  }
+  return out;
+}
+
+Model Model::without_collisions() const {
+  ModelData copy = *data_;
+  copy.pairs.clear();
+  return Model(std::move(copy));
+}
+
+}  // namespace saltus

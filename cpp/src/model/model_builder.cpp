@@ -1,0 +1,181 @@
+#include "saltus/model/model_builder.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <sstream>
+
+#include "model/assembly.hpp"
+
+namespace saltus {
+namespace {
+
+std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+std::string show(const Vec3& x) {
+  std::ostringstream text;
+  text << "(" << x[0] << " " << x[1] << " " << x[2] << ")";
+  return text.str();
+}
+
+void check_pose(const Pose& X, const std::string& element, const std::string& name) {
+  const bool finite = X.p.allFinite() && X.R.allFinite();
+  // 1e-6: what is left of a rotation written with six digits
+  if (finite && (X.R.transpose() * X.R - Mat3::Identity()).norm() < 1e-6 &&
+      X.R.determinant() > 0) {
+    return;
+  }
+  throw ModelError(element + " " + quoted(name) + " has a placement that is " +
+                       (finite ? "no rotation" : "not finite"),
+                   element, name);
+}
+
+template <class Items>
+void check_new_name(const Items& items, const std::string& element, const std::string& name) {
+  if (name.empty()) throw ModelError("a " + element + " has no name", element, name);
+  for (const auto& item : items) {
+    if (item.name == name) {
+      throw ModelError("two " + element + "s are named " + quoted(name), element, name);
+    }
+  }
+}
+
+struct SizeOfShape {
+  Vec3 operator()(const Sphere& s) const { return Vec3::Constant(s.radius); }
+  Vec3 operator()(const Capsule& c) const { return {c.radius, c.radius, c.half_length}; }
+  Vec3 operator()(const Box& b) const { return b.half; }
+  Vec3 operator()(const Cylinder& c) const { return {c.radius, c.radius, c.half_length}; }
+  Vec3 operator()(const HalfSpace&) const { return Vec3::Ones(); }
+};
+
+}  // namespace
+
+void check_inertia(const BodyInertia& inertia, const std::string& link) {
+  const auto fail = [&](const std::string& what) {
+    throw ModelError("link " + quoted(link) + " has " + what, "link", link);
+  };
+  std::ostringstream mass;
+  mass << inertia.mass;
+  if (!std::isfinite(inertia.mass) || inertia.mass < 0) {
+    fail("mass " + mass.str() + "; a mass is finite and not negative");
+  }
+  if (!inertia.c_J.allFinite()) fail("a centre of mass that is not finite: " + show(inertia.c_J));
+  if (!inertia.I_J.allFinite()) fail("an inertia that is not finite");
+  const double size = inertia.I_J.norm();
+  if ((inertia.I_J - inertia.I_J.transpose()).norm() > 1e-12 * size) {
+    fail("an inertia matrix that is not symmetric");
+  }
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia.I_J).eigenvalues();
+  // 1e-6: files are written with six digits or so, and thin rods and plates lie on the boundary
+  if (moments[0] < -1e-6 * size || moments[2] - moments[0] - moments[1] > 1e-6 * size) {
+    fail("principal moments of inertia " + show(moments) +
+         " that no body can have: each must be at least 0 and at most the sum of the other two");
+  }
+  if (inertia.mass == 0 && size > 0) fail("an inertia but no mass");
+}
+
+BodyInertia solid_sphere(double mass, double radius) {
+  return {mass, Vec3::Zero(), 0.4 * mass * radius * radius * Mat3::Identity()};
+}
+
+ModelBuilder::ModelBuilder(std::string name, std::string root)
+    : name_(std::move(name)), root_(std::move(root)) {
+  links_.push_back({root_, {}});
+}
+
+ModelBuilder& ModelBuilder::set_gravity(const Vec3& gravity) {
+  if (!gravity.allFinite()) throw ModelError("gravity " + show(gravity) + " is not finite");
+  gravity_ = gravity;
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_source(std::string text) {
+  source_ = std::move(text);
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_link(const LinkSpec& link) {
+  check_new_name(links_, "link", link.name);
+  check_inertia(link.inertia, link.name);
+  links_.push_back(link);
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
+  const auto fail = [&](const std::string& what) {
+    throw ModelError("joint " + quoted(joint.name) + " " + what, "joint", joint.name);
+  };
+  check_new_name(joints_, "joint", joint.name);
+  check_pose(joint.X_PJ, "joint", joint.name);
+  if (!joint.axis.allFinite()) fail("has an axis that is not finite: " + show(joint.axis));
+  if (joint.axis.norm() == 0) fail("has zero axis");
+  if (!std::isfinite(joint.pitch)) fail("has a pitch that is not finite");
+  if (joint.pitch != 0 && joint.type != JointType::helical) fail("has a pitch but is not helical");
+  if (std::isnan(joint.lower) || std::isnan(joint.upper) || joint.lower > joint.upper) {
+    std::ostringstream limits;
+    limits << "has lower limit " << joint.lower << " and upper limit " << joint.upper;
+    fail(limits.str());
+  }
+  for (const double number : {joint.velocity, joint.effort, joint.damping, joint.friction}) {
+    if (std::isnan(number)) fail("has a limit, damping or friction that is not a number");
+  }
+  if (joint.mimic && !(std::isfinite(joint.mimic->multiplier) &&
+                       std::isfinite(joint.mimic->offset))) {
+    fail("has a mimic multiplier or offset that is not finite");
+  }
+  joints_.push_back(joint);
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shape,
+                                      const Pose& X_LG) {
+  check_pose(X_LG, "link", link);
+  const Vec3 size = std::visit(SizeOfShape{}, shape);
+  const bool half_length_may_be_zero = std::holds_alternative<Capsule>(shape) && size[2] == 0;
+  if (!size.allFinite() || (size.head<2>().array() <= 0).any() ||
+      (size[2] <= 0 && !half_length_may_be_zero)) {
+    throw ModelError("link " + quoted(link) + " has a " + shape_name(shape) + " of size " +
+                         show(size) + "; sizes are finite and positive",
+                     "link", link);
+  }
+  if (std::holds_alternative<HalfSpace>(shape) && link != root_) {
+    throw ModelError("link " + quoted(link) +
+                         " carries a half-space, which only the root link " + quoted(root_) +
+                         " may",
+                     "link", link);
+  }
+  shapes_.push_back({link, "", shape, X_LG});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& normal,
+                                           double offset) {
+  if (!normal.allFinite() || normal.norm() == 0 || !std::isfinite(offset)) {
+    throw ModelError("half-space " + quoted(name) + " has normal " + show(normal) +
+                         "; it must be finite and not zero",
+                     "half_space", name);
+  }
+  for (const ShapeSpec& shape : shapes_) {
+    if (shape.name == name) {
+      throw ModelError("two half-spaces are named " + quoted(name), "half_space", name);
+    }
+  }
+  const Vec3 n = normal.normalized();
+  shapes_.push_back({root_, name, HalfSpace{}, {rotation_z_to(n), n * (offset / normal.norm())}});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_exclusion(const std::string& link_a, const std::string& link_b) {
+  exclusions_.push_back({link_a, link_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_warning(std::string text) {
+  warnings_.push_back(std::move(text));
+  return *this;
+}
+
+void ModelBuilder::check() const { Assembly(*this).check(); }
+
+Model ModelBuilder::build() const { return Assembly(*this).build(); }
+
+}  // namespace saltus

@@ -1,0 +1,102 @@
+#include "saltus/tree/kinematics.hpp"
+
+#include <cmath>
+
+namespace saltus {
+namespace {
+
+double displacement(const Drive& drive, const VecRef& q) {
+  return drive.multiplier * q[drive.coordinate] + drive.offset;
+}
+
+/// R_PJ(0) Rz(s) without the multiplications by the zeros of Rz.
+Mat3 turned(const Mat3& R, double s) {
+  const double c = std::cos(s), n = std::sin(s);
+  Mat3 out;
+  out.col(0) = c * R.col(0) + n * R.col(1);
+  out.col(1) = c * R.col(1) - n * R.col(0);
+  out.col(2) = R.col(2);
+  return out;
+}
+
+/// How far joint frame i is from its parent's, in world axes, at displacement s along R's z.
+Vec3 step_from_parent(const Tree& tree, int i, const Mat3& R_WP, const Vec3& axis_W, double s) {
+  const Joint& joint = tree.joint[i];
+  const Vec3 offset = R_WP * tree.X_PJ[i].p;
+  if (joint.kind == Joint::Kind::revolute) return offset;
+  return offset + axis_W * (joint.kind == Joint::Kind::prismatic ? s : joint.pitch * s);
+}
+
+void set_rotation(const Tree& tree, int i, double s, Kinematics& kin) {
+  const int parent = tree.parent[i];
+  const Mat3 R =
+      parent < 0 ? tree.X_PJ[i].R : Mat3(kin.joint[parent].R * tree.X_PJ[i].R);
+  kin.joint[i].R = tree.joint[i].turns() ? turned(R, s) : R;
+}
+
+Vec3 step_of(const Tree& tree, int i, const VecRef& q, const Kinematics& kin) {
+  const int parent = tree.parent[i];
+  const Mat3 R_WP = parent < 0 ? Mat3(Mat3::Identity()) : kin.joint[parent].R;
+  return step_from_parent(tree, i, R_WP, kin.joint[i].R.col(2),
+                          displacement(tree.drive[i], q));
+}
+
+/// Places the joints from the root to the reference joint so that the latter is at O exactly.
+/// All joints strictly above the reference slide, so their rotations are already known.
+void place_reference_path(const Tree& tree, int root, const VecRef& q, Kinematics& kin) {
+  const int reference = tree.reference[root];
+  Vec3 p = Vec3::Zero();
+  for (int i = reference; i != root; i = tree.parent[i]) {
+    kin.joint[i].p = p;
+    p -= step_of(tree, i, q, kin);
+  }
+  kin.joint[root].p = p;
+  kin.origin[root] = step_of(tree, root, q, kin) - p;
+}
+
+Vec6 screw(const Joint& joint, const Vec3& axis, const Vec3& p) {
+  if (joint.kind == Joint::Kind::prismatic) return spatial(Vec3::Zero(), axis);
+  return spatial(axis, p.cross(axis) + joint.pitch * axis);
+}
+
+}  // namespace
+
+void set_configuration(const Tree& tree, const VecRef& q, Kinematics& kin) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    set_rotation(tree, i, displacement(tree.drive[i], q), kin);
+  }
+  for (int i = 0; i < tree.joints(); ++i) {
+    if (tree.root[i] == i) {
+      place_reference_path(tree, i, q, kin);
+    } else if (!tree.is_ancestor(i, tree.reference[tree.root[i]])) {
+      kin.joint[i].p = kin.joint[tree.parent[i]].p + step_of(tree, i, q, kin);
+    }
+    JointMotion& m = kin.joint[i];
+    m.S = screw(tree.joint[i], m.R.col(2), m.p);
+  }
+}
+
+void set_velocity(const Tree& tree, const VecRef& v, Kinematics& kin) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    JointMotion& m = kin.joint[i];
+    const Drive& drive = tree.drive[i];
+    m.V = m.S * (drive.multiplier * v[drive.coordinate]);
+    if (tree.parent[i] >= 0) m.V += kin.joint[tree.parent[i]].V;
+    m.W = cross_motion(m.V, m.S);
+  }
+}
+
+void to_joints(const Tree& tree, const VecRef& v, VecX& out) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    out[i] = tree.drive[i].multiplier * v[tree.drive[i].coordinate];
+  }
+}
+
+void to_coordinates(const Tree& tree, const VecRef& f, VecX& out) {
+  out.setZero();
+  for (int i = 0; i < tree.joints(); ++i) {
+    out[tree.drive[i].coordinate] += tree.drive[i].multiplier * f[i];
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,39 @@
+#include "saltus/tree/tree.hpp"
+
+#include <cmath>
+
+namespace saltus {
+
+int add_joint(Tree& tree, int parent, const Joint& joint, const Pose& X_PJ, const Drive& drive) {
+  const int i = tree.joints();
+  tree.parent.push_back(parent);
+  tree.joint.push_back(joint);
+  tree.X_PJ.push_back(X_PJ);
+  tree.drive.push_back(drive);
+  tree.root.push_back(parent < 0 ? i : tree.root[static_cast<std::size_t>(parent)]);
+  tree.reference.push_back(i);
+  // The first turning joint of a tree carries its reference point; until there is one, the root.
+  const std::size_t root = static_cast<std::size_t>(tree.root.back());
+  const std::size_t reference = static_cast<std::size_t>(tree.reference[root]);
+  if (joint.turns() && !tree.joint[reference].turns()) tree.reference[root] = i;
+  if (drive.coordinate >= tree.coordinates) tree.coordinates = drive.coordinate + 1;
+  tree.one_to_one = tree.one_to_one && drive.coordinate == i && drive.multiplier == 1 &&
+                    drive.offset == 0;
+  return i;
+}
+
+Mat3 rotation_z_to(const Vec3& axis) {
+  for (int k = 0; k < 3; ++k) {
+    for (const double sign : {1.0, -1.0}) {
+      if (axis != sign * Vec3::Unit(k)) continue;
+      Mat3 R;  // a signed permutation with determinant 1
+      R.col(2) = axis;
+      R.col(0) = Vec3::Unit((k + 1) % 3);
+      R.col(1) = R.col(2).cross(R.col(0));
+      return R;
+    }
+  }
+  return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+}
+
+}  // namespace saltus
