@@ -13,8 +13,8 @@ namespace saltus {
 /// The message names the culprit, its value and the alternatives. Python: `ModelError(ValueError)`.
 class SALTUS_EXPORT ModelError : public std::invalid_argument {
  public:
-  explicit ModelError(const std::string& what, std::string element = "", std::string name = "")
-      : std::invalid_argument(what), element(std::move(element)), name(std::move(name)) {}
+  explicit ModelError(const std::string& what, std::string kind = "", std::string culprit = "")
+      : std::invalid_argument(what), element(std::move(kind)), name(std::move(culprit)) {}
   std::string element;  ///< kind of the culprit where it has a name: "link", "joint"
   std::string name;     ///< its name; a reader of files finds the line by these two
 };
@@ -23,8 +23,8 @@ class SALTUS_EXPORT ModelError : public std::invalid_argument {
 /// Python: `StepError(RuntimeError)` with the same attributes.
 class SALTUS_EXPORT StepError : public std::runtime_error {
  public:
-  StepError(const std::string& what, double t, double residual, int iterations)
-      : std::runtime_error(what), t(t), residual(residual), iterations(iterations) {}
+  StepError(const std::string& what, double time, double scaled_residual, int spent)
+      : std::runtime_error(what), t(time), residual(scaled_residual), iterations(spent) {}
   double t;         ///< [s] where the step (or arc) began
   double residual;  ///< [largest momentum] scaled residual when the solver gave up
   int iterations;   ///< Newton iterations, arcs or impulses spent

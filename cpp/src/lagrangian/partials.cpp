@@ -1,5 +1,6 @@
 #include "saltus/lagrangian/partials.hpp"
 
+#include "saltus/lagrangian/arc_matrix.hpp"
 #include "saltus/lagrangian/energy.hpp"
 
 namespace saltus {
