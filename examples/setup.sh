@@ -28,7 +28,7 @@ if ! machine_is_ready; then
   if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
     echo "setup: apt-get installs $packages" >&2
     apt-get update -qq
-    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >/dev/null
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 $packages >/dev/null
   fi
   if ! machine_is_ready; then
     echo "setup: a C++ compiler or Python >= 3.10 with its headers is missing; on Debian and Ubuntu run first:" >&2
