@@ -1,0 +1,83 @@
+#include "rollout/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/rollout/simulate.hpp"
+
+namespace saltus {
+
+EnergyMeter::EnergyMeter(const ModelData& model)
+    : energy{0, 0, 0}, kin(model.tree), comp(model.tree), M(model.tree) {
+  for (VecX* x : {&v, &force, &a}) x->setZero(model.tree.coordinates);
+  v_joint.setZero(model.tree.joints());
+}
+
+// kappa = a^T M a - v^T L_qq v with M a = L_q - L_vq v (theory, section 5); a^T M a = a . force.
+void measure(const ModelData& model, const State& state, double h, EnergyMeter& m) {
+  set_configuration(model.tree, state.q, m.kin);
+  set_velocity(model.tree, m.v, m.kin);  // any: M depends on q alone
+  first_pass(model.tree, model.mass, m.kin, m.comp);
+  second_pass(model.tree, model.mass, m.kin, m.comp);
+  if (!factorize(model.tree, m.kin, m.comp, 0, m.M)) {
+    throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
+  }
+  m.v = state.p;
+  solve(model.tree, m.M, m.v);
+
+  set_velocity(model.tree, m.v, m.kin);
+  first_pass(model.tree, model.mass, m.kin, m.comp);
+  second_pass(model.tree, model.mass, m.kin, m.comp);
+  to_joints(model.tree, m.v, m.v_joint);
+  multiply_second_partials(model.tree, m.kin, m.comp, m.v_joint, m.times);
+  const double curvature = m.v_joint.dot(m.times.L_qq_x);
+  m.times.L_vq_x = m.comp.L_q - m.times.L_vq_x;
+  to_coordinates(model.tree, m.times.L_vq_x, m.force);
+  m.a = m.force;
+  solve(model.tree, m.M, m.a);
+  const double kappa = m.a.dot(m.force) - curvature;
+
+  m.energy.kinetic = 0.5 * state.p.dot(m.v);
+  m.energy.potential = potential_energy(model.tree, model.mass, m.kin);
+  m.energy.shadow = m.energy.kinetic + m.energy.potential - h * h * kappa / 24;
+}
+
+Energies energies(const Model& model, const State& state, double h) {
+  check_vector(state.q, model.n_q(), "state.q");
+  check_vector(state.p, model.n_q(), "state.p");
+  EnergyMeter meter(*model);
+  measure(*model, state, h, meter);
+  return meter.energy;
+}
+
+Trajectory empty_trajectory(const Model& model, Eigen::Index rows) {
+  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
+  for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->setZero(rows);
+  for (MatX* x : {&run.q, &run.v, &run.p}) x->setZero(rows, model.n_q());
+  return run;
+}
+
+void truncate(Trajectory& run, Eigen::Index rows) {
+  for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->conservativeResize(rows);
+  for (MatX* x : {&run.q, &run.v, &run.p}) x->conservativeResize(rows, Eigen::NoChange);
+}
+
+void record(const State& state, double t, const EnergyMeter& meter, Eigen::Index row,
+            Trajectory& run) {
+  run.t[row] = t;
+  run.q.row(row) = state.q;
+  run.v.row(row) = meter.v;
+  run.p.row(row) = state.p;
+  run.kinetic[row] = meter.energy.kinetic;
+  run.potential[row] = meter.energy.potential;
+  run.shadow[row] = meter.energy.shadow;
+}
+
+double Trajectory::energy_error() const {
+  if (t.size() == 0) return 0;
+  const VecX H = total();
+  const double error = (H.array() - H[0]).abs().maxCoeff();
+  return error == 0 ? 0 : error / kinetic.maxCoeff();
+}
+
+}  // namespace saltus

@@ -1,0 +1,75 @@
+// One arc of the discrete motion: solve for its velocity.
+//
+// Theory, section 3; paper (9), (11a), (11c), (11d), (12). An arc (q, v, tau) starts at q, ends at
+// q + tau v, and is evaluated at q_mid = q + tau v / 2. Unknown is v, so tau = 0 is regular:
+//
+//   p_start = L_v - tau/2 L_q     = p + sum lambda_i n_i           all partials at (q_mid, v)
+//   p_end   = L_v + tau/2 L_q     = p_start + tau L_q
+//   E_d     = v.L_v - L           = T + V
+//
+// Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
+//   hold    phi(q + tau v) = target     a sustained contact; n = phi_q at the arc's start
+//   launch  E_d = target                the paper's (11c) after an impact along n
+//
+// p_end is taken from the second form, p_start + tau L_q, so that the momentum of a coordinate
+// that L does not depend on is conserved to the last bit.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/lagrangian/energy.hpp"
+#include "saltus/model/model.hpp"
+#include "saltus/variational/options.hpp"
+
+namespace saltus {
+
+inline constexpr int most_constraints = 32;  ///< of one arc; bounds the dense Schur complement
+
+struct ArcConstraint {
+  enum class Kind { hold, launch };
+  Kind kind = Kind::hold;
+  int pair = -1;          ///< index in model.pairs (hold)
+  double target = 0;      ///< [m] or [J]
+  double lambda = 0;      ///< [N s] guess in, solution out
+  VecX n;                 ///< (n_q) direction of the force
+  VecX row, column;       ///< (n_q) scratch: dc/dv and J^-1 n
+};
+
+struct ArcProblem {
+  const VecX& q;
+  const VecX& p;
+  double tau;
+  std::span<ArcConstraint> constraints;
+};
+
+struct Arc {
+  double tau = 0;
+  VecX v;                ///< guess in, solution out
+  VecX q_end, p_end;
+  double energy = 0;     ///< [J] E_d
+  double residual = 0;   ///< scaled by the size of the terms it is a difference of
+  int iterations = 0;
+};
+
+/// Workspace, and what the last solve left: kin, comp at (q_mid, v).
+struct ArcScratch {
+  explicit ArcScratch(const ModelData& model);
+  Kinematics kin, kin_end;
+  Composite comp;
+  ArcMatrix J;
+  SecondPartialsTimes times;
+  VecX x, L_v, L_q, r, scale, dv, v_joint, joint_scale;
+};
+
+/// @return false when it does not converge within options.max_iterations; `arc` then holds the
+/// best residual and the iterations spent.
+bool solve_arc(const ModelData& model, const ArcProblem& problem, const StepOptions& options,
+               Arc& arc, ArcScratch& s);
+
+/// dv/dtau of a solved arc, constraints left aside: v' = -J^-1 dp_start/dtau with
+/// dp_start/dtau = (L_vq v - L_q)/2 - tau/4 L_qq v. Result in `rate` (n_q).
+void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate);
+
+}  // namespace saltus

@@ -1,0 +1,188 @@
+#include "variational/flight.hpp"
+
+#include <cmath>
+
+#include "saltus/collision/chord.hpp"
+#include "variational/impact_time.hpp"
+
+namespace saltus {
+namespace {
+
+ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int pair, double target) {
+  ArcConstraint& c = f.constraints[f.active++];
+  c.kind = kind;
+  c.pair = pair;
+  c.target = target;
+  c.lambda = 0;
+  return c;
+}
+
+/// Holds a resting pair closed from now on; its gap is brought to exactly 0.
+bool hold(int pair, Node& node, Flight& f) {
+  if (f.active == most_constraints) return false;
+  next_constraint(f, ArcConstraint::Kind::hold, pair, 0).n =
+      node.contacts[node.contact_of[pair]].n;
+  node.held[pair] = 1;
+  return true;
+}
+
+void release(int i, Node& node, Flight& f) {
+  node.held[f.constraints[i].pair] = 0;
+  std::swap(f.constraints[i], f.constraints[f.active - 1]);
+  --f.active;
+}
+
+bool start_constraints(Node& node, Flight& f) {
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (!node.held[c.pair]) continue;
+    if (c.motion != Contact::Motion::rests) {
+      node.held[c.pair] = 0;
+    } else if (!hold(c.pair, node, f)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The gap below which a pair that rests at the node is pressed: it may not sink any further.
+double floor_of(const ModelData& model, const Node& node, int pair) {
+  const double touch = model.pairs[pair].touch;
+  const int contact = node.contact_of[pair];
+  return (contact < 0 ? 0 : std::min(0.0, node.contacts[contact].phi)) - touch;
+}
+
+enum class Holds { unchanged, changed, too_many };
+
+/// Complementarity of sustained contacts over the arc just solved: pressed pairs are held, held
+/// pairs that would have to be pulled are released. Each pair may change its mind twice.
+Holds update_holds(const ModelData& model, Node& node, Flight& f) {
+  for (int i = 0; i < f.active; ++i) {
+    const ArcConstraint& c = f.constraints[i];
+    if (c.kind != ArcConstraint::Kind::hold || c.lambda >= 0 || f.flips[c.pair] >= 2) continue;
+    ++f.flips[c.pair];
+    release(i, node, f);
+    return Holds::changed;
+  }
+  bool changed = false;
+  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
+    const Gap g = pair_gap(model.tree, f.scratch.kin_end, model.shapes, model.pairs[c.pair]);
+    if (g.phi >= floor_of(model, node, c.pair)) continue;
+    if (!hold(c.pair, node, f)) return Holds::too_many;
+    changed = true;
+  }
+  return changed ? Holds::changed : Holds::unchanged;
+}
+
+struct FirstHit {
+  int pair = -1;
+  double s = 2;
+};
+
+bool is_watched(const Node& node, const Flight& f, int pair) {
+  if (f.passed[pair] || node.held[pair]) return false;
+  const int contact = node.contact_of[pair];
+  return contact < 0 || node.contacts[contact].motion != Contact::Motion::rests;
+}
+
+/// The pair whose gap closes first on the arc's chord.
+FirstHit first_hit(const ModelData& model, Node& node, Flight& f) {
+  FirstHit first;
+  if (model.pairs.empty()) return first;
+  node.dq = f.arc.tau * f.arc.v;
+  double margin = 0;
+  find_candidates(model.tree, model.shapes, node.kin, node.dq, margin, f.broad);
+  for (const int pair : f.broad.candidates) {
+    if (!is_watched(node, f, pair)) continue;
+    const ChordHit hit = first_hit_on_chord(model.tree, model.shapes, model.pairs[pair], node.q,
+                                            node.dq, floor_of(model, node, pair));
+    if (hit.outcome != ChordHit::Outcome::clear && hit.s < first.s) first = {pair, hit.s};
+  }
+  return first;
+}
+
+void first_guess(double left, const Node& node, Flight& f) {
+  if (!f.history.extrapolate(node.t + left / 2, f.arc.v)) f.arc.v = f.start_v;
+}
+
+/// Asks for E_d of the arc that hit, unless the last strong impulse is too weak to match it
+/// (theory, section 5, warning a). Needs the arc without the launch in flight.arc.
+bool try_launch(Node& node, Flight& f) {
+  const double mismatch = std::abs(f.arc.energy - node.launch.energy);
+  if (node.launch.normal_energy <= mismatch || f.active == most_constraints) return false;
+  next_constraint(f, ArcConstraint::Kind::launch, -1, node.launch.energy).n = node.launch.n;
+  return true;
+}
+
+bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
+            Flight& f) {
+  node.launch.pending = false;
+  if (!try_launch(node, f)) return false;
+  f.start_v = f.arc.v;
+  if (solve_flight_arc(model, options, left, node, f)) return true;
+  --f.active;  // no root after all: back to the nodal arc
+  f.arc.v = f.start_v;
+  return false;
+}
+
+}  // namespace
+
+Flight::Flight(const ModelData& model)
+    : history(model.tree.coordinates),
+      scratch(model),
+      broad(model.tree, model.shapes, model.pairs),
+      constraints(most_constraints),
+      passed(model.pairs.size(), 0),
+      flips(model.pairs.size(), 0) {
+  const int n = model.tree.coordinates;
+  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &this->n}) x->setZero(n);
+  for (ArcConstraint& c : constraints) {
+    for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n);
+  }
+}
+
+FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
+                  Flight& f, bool& fallback) {
+  std::fill(f.passed.begin(), f.passed.end(), 0);
+  std::fill(f.flips.begin(), f.flips.end(), 0);
+  f.start_v = node.v;
+  first_guess(left, node, f);
+  f.active = 0;
+  if (left > 0 && !start_constraints(node, f)) return FlightOutcome::too_many_contacts;
+  double tau = left;
+  // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
+  const int most_turns = 10 + 4 * static_cast<int>(model.pairs.size());
+  for (int turn = 0; turn < most_turns; ++turn) {
+    if (!solve_flight_arc(model, options, tau, node, f)) return FlightOutcome::not_converged;
+    if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
+    const Holds holds = update_holds(model, node, f);
+    if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
+    if (holds == Holds::changed) continue;
+    const FirstHit hit = first_hit(model, node, f);
+    if (hit.pair < 0) return FlightOutcome::arrived;
+    const bool hop = hit.s <= 0 && node.contact_of[hit.pair] >= 0;
+    f.start_v = f.arc.v;
+    switch (find_impact_time(model, options, hit.pair, hit.s, node, f)) {
+      case ImpactTime::found:
+        if (hop) f.passed[hit.pair] = 1;  // both ends of its chord touch: nothing more to find
+        tau = f.arc.tau;
+        break;
+      case ImpactTime::missed:
+        f.passed[hit.pair] = 1;
+        f.arc.v = f.start_v;
+        break;
+      case ImpactTime::at_rest:
+        node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
+        f.arc.v = f.start_v;
+        break;
+      case ImpactTime::not_converged:
+        return FlightOutcome::not_converged;
+    }
+  }
+  return FlightOutcome::no_progress;
+}
+
+}  // namespace saltus

@@ -1,0 +1,46 @@
+// A flight: the arc from a node up to the first impact, or to the end of the step.
+//
+// Paper, section III-B, III-C; theory, section 4. The arc over the whole remaining time is tried;
+// if a gap closes on its chord, the time of the impact is the root of
+//
+//   g(tau) = phi(q + tau v(tau)) = 0,   g' = n.(v + tau v'),   v' = -J^-1 dp_start/dtau
+//
+// with v(tau) from the arc equation itself, by safeguarded Newton. The shortened arc is tried
+// again, until its chord is clear: no impact inside a step is missed, and none is taken too late.
+#pragma once
+
+#include <vector>
+
+#include "saltus/variational/options.hpp"
+#include "variational/arc.hpp"
+#include "variational/guess.hpp"
+#include "variational/node.hpp"
+
+namespace saltus {
+
+struct Flight {
+  explicit Flight(const ModelData& model);
+
+  Arc arc;                                  ///< the result
+  GuessHistory history;
+  int iterations = 0;                       ///< Newton iterations of all arcs tried
+
+  // scratch
+  ArcScratch scratch;
+  BroadPhase broad;
+  std::vector<ArcConstraint> constraints;   ///< (most_constraints) a pool; `active` are in use
+  int active = 0;
+  VecX rate, start_v, n;
+  std::vector<char> passed;                 ///< (pairs) no impact to be found in this flight
+  std::vector<char> flips;                  ///< (pairs) how often held and released in this flight
+};
+
+enum class FlightOutcome { arrived, not_converged, too_many_contacts, no_progress };
+
+/// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs
+/// that it holds closed are marked in node.held.
+/// @param fallback set where discrete_energy could not be met and nodal_energy was used
+FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
+                  Flight& flight, bool& fallback);
+
+}  // namespace saltus

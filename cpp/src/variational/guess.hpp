@@ -1,0 +1,52 @@
+// First guess of an arc's velocity: polynomial through the arcs before it.
+//
+// The velocities of the last arcs, at their middle times, are values of one smooth function until
+// an impact; up to four of them are extrapolated (Lagrange form), which leaves an error of O(h^4).
+#pragma once
+
+#include <array>
+
+#include "saltus/spatial/spatial.hpp"
+
+namespace saltus {
+
+class GuessHistory {
+ public:
+  explicit GuessHistory(int n_q) {
+    for (VecX& v : v_) v.setZero(n_q);
+  }
+  void clear() { count_ = 0; }
+
+  void add(double t_mid, const VecX& v) {
+    newest_ = (newest_ + 1) % most;
+    t_[newest_] = t_mid;
+    v_[newest_] = v;
+    if (count_ < most) ++count_;
+  }
+
+  /// Writes `v` (n_q); leaves it alone and returns false without history.
+  bool extrapolate(double t_mid, VecX& v) const {
+    if (count_ == 0) return false;
+    v.setZero();
+    for (int i = 0; i < count_; ++i) {
+      double weight = 1;
+      for (int j = 0; j < count_; ++j) {
+        if (j != i) weight *= (t_mid - t_at(j)) / (t_at(i) - t_at(j));
+      }
+      v += weight * v_[index(i)];
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int most = 4;
+  int index(int i) const { return (newest_ + most - i) % most; }
+  double t_at(int i) const { return t_[index(i)]; }
+
+  std::array<double, most> t_{};
+  std::array<VecX, most> v_;
+  int newest_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace saltus

@@ -1,0 +1,118 @@
+#include "variational/impact_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace saltus {
+namespace {
+
+/// g and g' at the end of flight.arc.
+struct GapAtEnd {
+  double phi;
+  double slope;
+};
+
+double phi_at_end(const ModelData& model, int pair, Flight& f) {
+  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+  return pair_gap(model.tree, f.scratch.kin_end, model.shapes, model.pairs[pair]).phi;
+}
+
+/// Also writes flight.rate = v'(tau), the next guess's slope.
+GapAtEnd gap_at_end(const ModelData& model, int index, Flight& f) {
+  const Pair& pair = model.pairs[index];
+  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+  const Gap g = pair_gap(model.tree, f.scratch.kin_end, model.shapes, pair);
+  f.n.setZero();
+  add_gap_gradient(model.tree, f.scratch.kin_end, pair, g, f.n);
+  arc_rate(model, f.arc, f.scratch, f.rate);
+  return {g.phi, f.n.dot(f.arc.v) + f.arc.tau * f.n.dot(f.rate)};
+}
+
+struct Bracket {
+  double lo, hi;       ///< g(lo) > 0
+  bool hi_is_closed;   ///< g(hi) < 0 is known
+};
+
+/// Newton's next tau, kept inside the bracket.
+double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
+  const double newton = tau - g.phi / g.slope;
+  if (std::isfinite(newton) && newton > b.lo && newton < b.hi) return newton;
+  if (!b.hi_is_closed && (!std::isfinite(newton) || newton >= b.hi)) return b.hi;
+  return (b.lo + b.hi) / 2;
+}
+
+ImpactTime refine(const ModelData& model, const StepOptions& options, int pair, double tau,
+                  Bracket b, const Node& node, Flight& f) {
+  const double touch = model.pairs[pair].touch;
+  const double whole = b.hi;
+  double phi_before = std::numeric_limits<double>::infinity();
+  // bisection alone takes 60 halvings to the last bit; Newton 3 to 5 steps
+  for (int k = 0; k < 100; ++k) {
+    if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;
+    const GapAtEnd g = gap_at_end(model, pair, f);
+    const bool stalled = std::abs(g.phi) <= touch / 2 && std::abs(g.phi) >= phi_before / 2;
+    if (std::abs(g.phi) <= 1e-3 * touch || stalled) return ImpactTime::found;
+    if (g.phi > 0 && tau >= whole) return ImpactTime::missed;
+    if (g.phi > 0) {
+      b.lo = tau;
+    } else {
+      b.hi = tau;
+      b.hi_is_closed = true;
+    }
+    // the bracket is a few ulp wide: the root is as good as doubles can tell it
+    if (b.hi - b.lo <= 4e-16 * whole) {
+      return std::abs(g.phi) <= touch ? ImpactTime::found : ImpactTime::missed;
+    }
+    if (!b.hi_is_closed && g.slope >= 0) return ImpactTime::missed;
+    phi_before = std::abs(g.phi);
+    const double next = next_tau(b, tau, g);
+    f.arc.v += (next - tau) * f.rate;
+    tau = next;
+  }
+  return ImpactTime::not_converged;
+}
+
+/// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
+/// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
+ImpactTime find_return(const ModelData& model, const StepOptions& options, int pair,
+                       const Node& node, Flight& f) {
+  const Contact& c = node.contacts[node.contact_of[pair]];
+  const double tau = f.arc.tau;
+  const double drop = phi_at_end(model, pair, f) - c.phi - c.u * tau;
+  if (!(drop < 0)) return ImpactTime::missed;
+  const double back = std::min(tau, -c.u * tau * tau / drop);
+  if (c.u * back / 4 <= model.pairs[pair].touch) return ImpactTime::at_rest;  // height of the hop
+  // half the way back is near the top of the hop, where the gap is open; halve on if not
+  double lo = back / 2;
+  for (int k = 0;; ++k) {
+    if (!solve_flight_arc(model, options, lo, node, f)) return ImpactTime::not_converged;
+    if (phi_at_end(model, pair, f) > model.pairs[pair].touch) break;
+    if (k == 40) return ImpactTime::at_rest;
+    lo /= 2;
+  }
+  const double start = back > lo ? back : 1.5 * lo;
+  return refine(model, options, pair, std::min(start, tau), {lo, tau, false}, node, f);
+}
+
+}  // namespace
+
+bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
+                      const Node& node, Flight& f) {
+  const ArcProblem problem{node.q, node.p, tau,
+                           std::span(f.constraints.data(), static_cast<std::size_t>(f.active))};
+  const bool converged = solve_arc(model, problem, options, f.arc, f.scratch);
+  f.iterations += f.arc.iterations;
+  return converged;
+}
+
+ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int pair, double s,
+                            const Node& node, Flight& f) {
+  if (s <= 0 && node.contact_of[pair] >= 0) return find_return(model, options, pair, node, f);
+  const double tau = f.arc.tau;
+  const bool closed = gap_at_end(model, pair, f).phi < 0;
+  f.arc.v += (s - 1) * tau * f.rate;
+  return refine(model, options, pair, s * tau, {0, tau, closed}, node, f);
+}
+
+}  // namespace saltus

@@ -1,0 +1,219 @@
+#include "variational/node.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/lagrangian/energy.hpp"
+
+namespace saltus {
+namespace {
+
+bool set_velocity_at_node(const ModelData& model, Node& node) {
+  set_velocity(model.tree, node.v, node.kin);  // any: M depends on q alone
+  first_pass(model.tree, model.mass, node.kin, node.comp);
+  second_pass(model.tree, model.mass, node.kin, node.comp);
+  if (!factorize(model.tree, node.kin, node.comp, 0, node.M)) return false;
+  node.v = node.p;
+  solve(model.tree, node.M, node.v);
+  return node.v.allFinite();
+}
+
+Contact& next_in_pool(Node& node) {
+  if (node.touching == static_cast<int>(node.contacts.size())) {
+    Contact fresh;
+    fresh.n.setZero(node.q.size());
+    fresh.column.setZero(node.q.size());
+    node.contacts.push_back(std::move(fresh));
+  }
+  return node.contacts[node.touching];
+}
+
+Contact::Motion motion_of(double u, double epsilon_u) {
+  if (u < -epsilon_u) return Contact::Motion::approaches;
+  return u > epsilon_u ? Contact::Motion::leaves : Contact::Motion::rests;
+}
+
+void classify(const Node& node, double speed, double relative, Contact& c) {
+  c.u = c.n.dot(node.v);
+  c.epsilon_u = relative * (speed + c.n.cwiseAbs().dot(node.v.cwiseAbs()));
+  c.motion = motion_of(c.u, c.epsilon_u);
+}
+
+/// A speed of the whole model, [m/s].
+double typical_speed(const ModelData& model, const StepOptions& options, const Node& node) {
+  const double twice_T = std::max(0.0, node.p.dot(node.v));
+  return std::sqrt(twice_T / node.total_mass) + options.h * model.mass.gravity.norm();
+}
+
+void reset_contacts(Node& node) {
+  for (int i = 0; i < node.touching; ++i) node.contact_of[node.contacts[i].pair] = -1;
+  node.touching = 0;
+}
+
+/// Adds the pair to the contacts if it touches, or would within epsilon_t h.
+void add_if_touching(const ModelData& model, const StepOptions& options, double speed, int index,
+                     Node& node) {
+  const Pair& pair = model.pairs[index];
+  const Gap g = pair_gap(model.tree, node.kin, model.shapes, pair);
+  // no pair closes faster than the bodies move: 100 times the typical speed bounds light bodies'
+  const double soon = options.simultaneous * options.h;
+  if (g.phi > pair.touch + 100 * soon * speed) return;
+  Contact& c = next_in_pool(node);
+  c.n.setZero();
+  add_gap_gradient(model.tree, node.kin, pair, g, c.n);
+  c.pair = index;
+  c.phi = g.phi;
+  classify(node, speed, options.rest, c);
+  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
+  node.contact_of[index] = node.touching++;
+}
+
+void set_G(const ModelData& model, Node& node) {
+  const int m = node.touching;
+  node.G.resize(std::max(node.G.size(), static_cast<std::size_t>(m) * m));
+  if (node.u.size() < m) {
+    node.u.resize(m);
+    node.rest.resize(m);
+  }
+  for (int i = 0; i < m; ++i) {
+    Contact& c = node.contacts[i];
+    c.column = c.n;
+    solve(model.tree, node.M, c.column);
+    node.u[i] = c.u;
+    node.rest[i] = c.epsilon_u;
+  }
+  for (int i = 0; i < m; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double G_ij = node.contacts[i].n.dot(node.contacts[j].column);
+      node.G[i * m + j] = G_ij;
+      node.G[j * m + i] = G_ij;
+    }
+  }
+}
+
+void apply(Node& node, int contact, double lambda) {
+  node.p += lambda * node.contacts[contact].n;
+  node.v += lambda * node.contacts[contact].column;
+}
+
+}  // namespace
+
+Node::Node(const ModelData& model)
+    : contact_of(model.pairs.size(), -1),
+      held(model.pairs.size(), 0),
+      kin(model.tree),
+      comp(model.tree),
+      M(model.tree),
+      broad(model.tree, model.shapes, model.pairs) {
+  const int n = model.tree.coordinates;
+  for (VecX* x : {&q, &p, &v, &dq, &launch.n}) x->setZero(n);
+  for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
+}
+
+bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {
+  if (model.pairs.empty()) return true;
+  set_configuration(model.tree, node.q, node.kin);
+  node.dq = options.simultaneous * options.h * node.v;
+  double margin = 0;
+  for (const Pair& pair : model.pairs) margin = std::max(margin, pair.touch);
+  find_candidates(model.tree, model.shapes, node.kin, node.dq, margin, node.broad);
+  reset_contacts(node);
+  if (node.broad.candidates.empty()) return true;
+  if (!set_velocity_at_node(model, node)) return false;
+  const double speed = typical_speed(model, options, node);
+  for (const int index : node.broad.candidates) {
+    add_if_touching(model, options, speed, index, node);
+  }
+  for (const int index : node.broad.candidates) {
+    if (node.contact_of[index] < 0) node.held[index] = 0;
+  }
+  return true;
+}
+
+bool impact_pending(const Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    if (node.contacts[i].motion == Contact::Motion::approaches) return true;
+  }
+  return false;
+}
+
+void settle_held_contacts(const ModelData& model, Node& node) {
+  int held = 0;
+  for (int i = 0; i < node.touching; ++i) held += node.held[node.contacts[i].pair];
+  if (held == 0) return;
+  set_G(model, node);
+  const int m = node.touching;
+  // Projected Gauss-Seidel on 0 <= lambda, u >= 0 of the held contacts; few contacts, well
+  // conditioned, and what 200 sweeps leave is far below epsilon_u
+  std::vector<double>& lambda = node.settled;
+  lambda.assign(static_cast<std::size_t>(m), 0);
+  for (int sweep = 0; sweep < 200; ++sweep) {
+    double change = 0;
+    for (int i = 0; i < m; ++i) {
+      const Contact& c = node.contacts[i];
+      if (!node.held[c.pair]) continue;
+      const double u = c.n.dot(node.v);
+      const double next = std::max(0.0, lambda[i] - u / node.G[i * m + i]);
+      const double step = next - lambda[i];
+      if (step == 0) continue;
+      lambda[i] = next;
+      apply(node, i, step);
+      change = std::max(change, std::abs(step) * node.G[i * m + i]);
+    }
+    if (change == 0) break;
+  }
+  for (int i = 0; i < m; ++i) {
+    Contact& c = node.contacts[i];
+    c.u = c.n.dot(node.v);
+    c.motion = motion_of(c.u, c.epsilon_u);
+  }
+}
+
+double node_energy(const ModelData& model, const Node& node) {
+  return 0.5 * node.p.dot(node.v) + potential_energy(model.tree, model.mass, node.kin);
+}
+
+bool resolve_node_impact(const ModelData& model, const StepOptions& options, double arc_energy,
+                         Node& node, StepReport& report) {
+  set_G(model, node);
+  const int m = node.touching;
+  const Eigen::Map<const MatX> G(node.G.data(), m, m);
+  node.impulses.clear();
+  CascadeOptions cascade_options;
+  cascade_options.max_impulses = options.max_impulses;
+  if (!cascade(G, node.u.head(m), node.rest.head(m), cascade_options, node.impulses)) return false;
+
+  Impact impact{node.t, static_cast<int>(report.impulses.size()),
+                static_cast<int>(node.impulses.size()), m, ImpactLaw::nodal_energy, false};
+  double strongest = 0;
+  for (const Impulse& impulse : node.impulses) {
+    // lambda u / 2 is the normal kinetic energy u^2 / 2G four times over: lambda = -2 u / G
+    const double energy = impulse.lambda * impulse.lambda * G(impulse.pair, impulse.pair) / 8;
+    strongest = std::max(strongest, energy);
+  }
+  for (const Impulse& impulse : node.impulses) {
+    const Contact& c = node.contacts[impulse.pair];
+    const double energy = impulse.lambda * impulse.lambda * G(impulse.pair, impulse.pair) / 8;
+    if (energy > 1e-3 * strongest) {  // the last strong one carries the energy match
+      node.launch.normal_energy = energy;
+      node.launch.n = c.n;
+    }
+    apply(node, impulse.pair, impulse.lambda);
+    report.impulses.push_back({c.pair, impulse.lambda});
+  }
+  node.launch.pending = options.law == ImpactLaw::discrete_energy;
+  node.launch.energy = arc_energy;
+  impact.law = options.law;
+  report.impacts.push_back(impact);
+  const double speed = typical_speed(model, options, node);
+  node.v = node.p;  // without the rounding that the cascade's updates have gathered
+  solve(model.tree, node.M, node.v);
+  for (int i = 0; i < m; ++i) {
+    node.held[node.contacts[i].pair] = 0;
+    classify(node, speed, options.rest, node.contacts[i]);
+  }
+  return true;
+}
+
+}  // namespace saltus

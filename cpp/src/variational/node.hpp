@@ -1,0 +1,81 @@
+// A node: the point (t, q, p) where arcs meet. What touches there, and what an impact does to p.
+//
+// Theory, section 6. A pair touches when |phi| <= pair.touch, or when it would close within
+// epsilon_t h. Touching pairs approach (u < -epsilon_u: they collide here and now), leave
+// (u > epsilon_u) or rest. epsilon_u = rest (sqrt(2 T / m) + h |g| + sum_k |phi_q[k] v_k|): a part
+// of the speeds that there are, so that rounding is no impact.
+#pragma once
+
+#include <vector>
+
+#include "saltus/collision/broad_phase.hpp"
+#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/model/model.hpp"
+#include "saltus/variational/cascade.hpp"
+#include "saltus/variational/report.hpp"
+
+namespace saltus {
+
+struct Contact {
+  enum class Motion { approaches, rests, leaves };
+  int pair = -1;
+  double phi = 0;          ///< [m]
+  double u = 0;            ///< [m/s] gap rate
+  double epsilon_u = 0;    ///< [m/s]
+  Motion motion = Motion::rests;
+  VecX n;                  ///< (n_q) phi_q
+  VecX column;             ///< (n_q) M^-1 n, written by the impact
+};
+
+/// What discrete_energy asks of the next arc: E_d = energy, by a last impulse along n.
+struct Launch {
+  bool pending = false;
+  double energy = 0;          ///< [J] E_d of the arc that hit
+  double normal_energy = 0;   ///< [J] u^2 / 2G of the last strong impulse
+  VecX n;                     ///< (n_q)
+};
+
+struct Node {
+  explicit Node(const ModelData& model);
+
+  double t = 0;
+  VecX q, p, v;                   ///< v = M^-1 p, written by find_contacts where pairs touch
+  std::vector<Contact> contacts;  ///< a pool; the first `touching` are valid
+  int touching = 0;
+  std::vector<int> contact_of;    ///< (pairs) index in contacts, or -1
+  std::vector<char> held;         ///< (pairs) kept closed by a force in the last arc
+  Launch launch;
+
+  // scratch
+  Kinematics kin;
+  Composite comp;
+  ArcMatrix M;
+  BroadPhase broad;
+  VecX dq, u, rest;
+  std::vector<double> G;          ///< grows only; (touching, touching)
+  std::vector<Impulse> impulses;
+  std::vector<double> settled;    ///< impulses of settle_held_contacts
+  double total_mass = 0;
+};
+
+/// Writes contacts (motion included) and v. Needs t, q, p. Pairs that have parted are not held.
+/// @return false where the mass matrix is singular.
+bool find_contacts(const ModelData& model, const StepOptions& options, Node& node);
+
+/// Takes the approach of held contacts away (a plastic projection): the closing half kick of a
+/// sustained contact. Changes p and v.
+void settle_held_contacts(const ModelData& model, Node& node);
+
+/// True where some touching pair approaches.
+bool impact_pending(const Node& node);
+
+/// Resolves the impact at the node: changes p, v and launch, appends to the report.
+/// @param arc_energy E_d of the arc that hit [J], for discrete_energy
+/// @return false when the cascade does not end (JammedError is the caller's)
+bool resolve_node_impact(const ModelData& model, const StepOptions& options, double arc_energy,
+                         Node& node, StepReport& report);
+
+/// H(q, p) [J] at a node. Needs set_configuration at q in node.kin and v.
+double node_energy(const ModelData& model, const Node& node);
+
+}  // namespace saltus

@@ -1,0 +1,222 @@
+#include "saltus/variational/stepper.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "variational/flight.hpp"
+
+namespace saltus {
+
+struct Stepper::Impl {
+  Impl(const Model& with, const StepOptions& with_options)
+      : model(with_options.collisions ? with : with.without_collisions()),
+        options(with_options),
+        node(*model),
+        flight(*model) {
+    last.q.setZero(model.n_q());
+    last.p.setZero(model.n_q());
+  }
+
+  void step(State& state);
+  void start(const State& state);
+  void check_overlap() const;
+  void fly_one_arc(double left);
+  void arrive(double t);
+  void finish();
+  [[noreturn]] void fail(FlightOutcome outcome) const;
+  [[noreturn]] void fail_jammed() const;
+  [[noreturn]] void fail_impacts() const;
+  std::string contact_list() const;
+
+  Model model;
+  StepOptions options;
+  Node node;
+  Flight flight;
+  StepReport report;
+  State last;               // what the last step returned: the node still holds it
+  bool last_is_valid = false;
+};
+
+namespace {
+
+void check_options(const StepOptions& o) {
+  const auto fail = [](const std::string& name, double value, const std::string& range) {
+    std::ostringstream text;
+    text << name << " = " << value << "; it must be " << range;
+    throw ModelError(text.str());
+  };
+  if (!(o.h > 0) || !std::isfinite(o.h)) fail("h", o.h, "positive and finite [s]");
+  if (o.max_iterations < 1) fail("max_iterations", o.max_iterations, "at least 1");
+  if (o.max_impacts < 1) fail("max_impacts", o.max_impacts, "at least 1");
+  if (o.max_impulses < 1) fail("max_impulses", o.max_impulses, "at least 1");
+  if (!(o.rest >= 0 && o.rest < 1)) fail("rest", o.rest, "in [0, 1)");
+  if (!(o.simultaneous >= 0 && o.simultaneous < 1)) {
+    fail("simultaneous", o.simultaneous, "in [0, 1)");
+  }
+}
+
+}  // namespace
+
+Stepper::Stepper(const Model& model, const StepOptions& options) {
+  check_options(options);
+  impl_ = std::make_unique<Impl>(model, options);
+}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+const StepReport& Stepper::report() const { return impl_->report; }
+const Model& Stepper::model() const { return impl_->model; }
+const StepOptions& Stepper::options() const { return impl_->options; }
+
+State Stepper::advance(const State& state) {
+  State next = state;
+  impl_->step(next);
+  return next;
+}
+
+void Stepper::step(State& state) { impl_->step(state); }
+
+// The step: fly to the first impact, resolve it, go on for the time left.
+void Stepper::Impl::step(State& state) {
+  report.iterations = report.arcs = report.sustained = 0;
+  report.residual = 0;
+  report.impacts.clear();
+  report.impulses.clear();
+  if (!last_is_valid || !(state == last)) start(state);
+  last_is_valid = false;  // until this step is done
+  const double t_start = state.t, h = options.h;
+  for (double left = h; left > 0;) {
+    fly_one_arc(left);
+    left = flight.arc.tau < left ? left - flight.arc.tau : 0;
+    arrive(t_start + (h - left));
+  }
+  finish();
+  state = last;
+}
+
+void Stepper::Impl::start(const State& state) {
+  check_vector(state.q, model.n_q(), "state.q");
+  check_vector(state.p, model.n_q(), "state.p");
+  if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
+  last_is_valid = false;
+  flight.history.clear();
+  node.launch.pending = false;
+  std::fill(node.held.begin(), node.held.end(), 0);
+  node.t = state.t;
+  node.q = state.q;
+  node.p = state.p;
+  node.v.setZero();
+  if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
+  check_overlap();
+  if (impact_pending(node)) {
+    flight.arc.energy = node_energy(*model, node);
+    arrive(state.t);
+  }
+}
+
+void Stepper::Impl::check_overlap() const {
+  std::ostringstream text;
+  int found = 0;
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    // 100 touches (1e-8 of the shapes' size): what a state written with 8 digits loses
+    if (c.phi >= -100 * model->pairs[c.pair].touch) continue;
+    if (++found <= 5) {
+      text << (found > 1 ? ", " : "") << model.pair_name(c.pair) << " by " << -c.phi << " m";
+    }
+  }
+  if (found == 0) return;
+  if (found > 5) text << " and " << found - 5 << " pairs more";
+  throw ModelError("bodies overlap at the start: " + text.str() +
+                   "; move them apart, exclude the pair, or step without collisions");
+}
+
+void Stepper::Impl::fly_one_arc(double left) {
+  bool fallback = false;
+  const FlightOutcome outcome = fly(*model, options, left, node, flight, fallback);
+  report.iterations += flight.iterations;
+  flight.iterations = 0;
+  report.residual = std::max(report.residual, flight.arc.residual);
+  if (outcome != FlightOutcome::arrived) fail(outcome);
+  if (fallback && !report.impacts.empty()) {
+    report.impacts.back().fallback = true;
+    report.impacts.back().law = ImpactLaw::nodal_energy;
+  }
+  ++report.arcs;
+  report.sustained += flight.active;
+  flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
+}
+
+// Ends the arc at a node, and resolves the impact there if there is one.
+void Stepper::Impl::arrive(double t) {
+  if (t > node.t || report.arcs > 0) {
+    node.t = t;
+    node.q = flight.arc.q_end;
+    node.p = flight.arc.p_end;
+    node.v = flight.arc.v;
+    if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
+    settle_held_contacts(*model, node);
+  }
+  if (!impact_pending(node)) return;
+  if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();
+  if (!resolve_node_impact(*model, options, flight.arc.energy, node, report)) fail_jammed();
+  flight.history.clear();
+}
+
+// A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.
+void Stepper::Impl::finish() {
+  if (node.launch.pending) {
+    fly_one_arc(0);
+    node.p = flight.arc.p_end;
+    node.v = flight.arc.v;
+  }
+  last.t = node.t;
+  last.q = node.q;
+  last.p = node.p;
+  last_is_valid = true;
+}
+
+std::string Stepper::Impl::contact_list() const {
+  std::vector<std::string> names;
+  for (int i = 0; i < node.touching; ++i) names.push_back(model.pair_name(node.contacts[i].pair));
+  return list_names(names);
+}
+
+void Stepper::Impl::fail(FlightOutcome outcome) const {
+  std::ostringstream text;
+  const Arc& arc = flight.arc;
+  switch (outcome) {
+    case FlightOutcome::too_many_contacts:
+      text << "more than " << most_constraints << " sustained contacts at t = " << node.t
+           << " s: " << contact_list();
+      break;
+    case FlightOutcome::no_progress:
+      text << "contacts at t = " << node.t
+           << " s keep closing and opening within one arc: " << contact_list();
+      break;
+    default:
+      text << "DEL residual " << arc.residual << " after " << arc.iterations
+           << " iterations at t = " << node.t << " s, arc of " << arc.tau
+           << " s; a smaller h helps where the motion is fast (h = " << options.h
+           << " s), and a singular configuration (pitch of a free joint at 90 deg) does not go away";
+  }
+  throw StepError(text.str(), node.t, arc.residual, arc.iterations);
+}
+
+void Stepper::Impl::fail_jammed() const {
+  std::ostringstream text;
+  text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
+       << " impulses: bodies jammed at " << contact_list();
+  throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
+}
+
+void Stepper::Impl::fail_impacts() const {
+  std::ostringstream text;
+  text << "more than " << options.max_impacts << " impacts in the step from t = " << last.t
+       << " s, at t = " << node.t << " s between " << contact_list()
+       << "; a smaller h, or a larger max_impacts if this is meant";
+  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+}
+
+}  // namespace saltus
