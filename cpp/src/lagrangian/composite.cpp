@@ -41,8 +41,7 @@ void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, 
   }
 }
 
-void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
-                 Composite& comp) {
+void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp) {
   for (int i = tree.joints() - 1; i >= 0; --i) {
     const JointMotion& m = kin.joint[i];
     JointComposite& c = comp.joint[i];

@@ -16,10 +16,10 @@ double potential_energy(const Tree& tree, const MassModel& mass, const Kinematic
 
 // Row i of a symmetric-by-branch product collects its subtree through the sums of (U, F, G) x and
 // its ancestors through the sums of (S, W) x:
-//   (L_vv x)_i = S_i.sum U_j x_j                     + U_i.sum_above S_k x_k
-//   (L_vq x)_i = S_i.sum F_j x_j                     + U_i.sum_above W_k x_k
-//   (L_qv x)_i = W_i.sum U_j x_j                     + F_i.sum_above S_k x_k
-//   (L_qq x)_i = W_i.sum F_j x_j + S_i.sum G_j x_j   + F_i.sum_above W_k x_k + G_i.sum_above S_k x_k
+//   (L_vv x)_i = S_i.sum U_j x_j                      + U_i.up S_k x_k
+//   (L_vq x)_i = S_i.sum F_j x_j                      + U_i.up W_k x_k
+//   (L_qv x)_i = W_i.sum U_j x_j                      + F_i.up S_k x_k
+//   (L_qq x)_i = W_i.sum F_j x_j + S_i.sum G_j x_j    + F_i.up W_k x_k + G_i.up S_k x_k
 void multiply_second_partials(const Tree& tree, const Kinematics& kin, const Composite& comp,
                               const VecRef& x, SecondPartialsTimes& out) {
   const int n = tree.joints();

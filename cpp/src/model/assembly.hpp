@@ -10,6 +10,8 @@
 
 namespace saltus {
 
+inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
 class Assembly {
  public:
   explicit Assembly(const ModelBuilder& builder) : b_(builder) {}
@@ -24,19 +26,35 @@ class Assembly {
     Pose X_JF;
   };
 
-  void find_links();                     // parents, children; unknown names, two parents
-  void order_joints();                   // depth first from the root; cycles, two roots
-  void resolve_mimic();                  // flattens chains of mimics into drives
-  void number_coordinates();
-  void add_frames();                     // joints -> tree, links -> places
-  void add_masses();
-  void check_masses() const;             // joints that move no mass
-  void add_shapes();
-  void add_pairs();
+  /// One of the one-degree joints that a joint is composed of.
+  struct Axis {
+    const char* suffix;  ///< of the coordinate's name
+    Joint::Kind kind;
+    Vec3 axis;  ///< in the joint's own frame turned so that its axis is z
+  };
 
-  int link_index(const std::string& name, const std::string& joint, const std::string& role) const;
+  // topology.cpp
+  void find_links();     // parents, children; unknown names, two parents
+  void order_joints();   // depth first from the root; cycles, two roots
+  void resolve_mimic();  // flattens chains of mimics into drives
+  void number_coordinates();
+  static std::vector<Axis> composition(JointType type);
+  /// Index of a link, or ModelError: "<user> link "<name>", which does not exist; links are ...".
+  int link_index(const std::string& name, const std::string& user, const std::string& element,
+                 const std::string& culprit) const;
+
+  // assembly.cpp
+  void add_frames();  // joints -> tree, links -> places
   Place add_frame(const Place& at, const Vec3& axis, Joint joint, int spec, int coordinate);
   Place add_joint_frames(const Place& parent, int spec);
+
+  // masses.cpp
+  void add_masses();
+  void check_masses() const;  // joints that move no mass
+
+  // pairs.cpp
+  void add_shapes();
+  void add_pairs();
   bool is_adjacent(int link_a, int link_b) const;
   bool is_watched(const PlacedShape& a, const PlacedShape& b) const;
 

@@ -9,24 +9,24 @@
 namespace saltus {
 namespace {
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
-
 std::string show(const Vec3& x) {
   std::ostringstream text;
   text << "(" << x[0] << " " << x[1] << " " << x[2] << ")";
   return text.str();
 }
 
-void check_pose(const Pose& X, const std::string& element, const std::string& name) {
+/// The placement, with its rotation made orthonormal; @throws where it is none.
+Pose checked_pose(const Pose& X, const std::string& element, const std::string& name) {
   const bool finite = X.p.allFinite() && X.R.allFinite();
+  const double defect = (X.R.transpose() * X.R - Mat3::Identity()).norm();
   // 1e-6: what is left of a rotation written with six digits
-  if (finite && (X.R.transpose() * X.R - Mat3::Identity()).norm() < 1e-6 &&
-      X.R.determinant() > 0) {
-    return;
+  if (!finite || !(defect < 1e-6) || X.R.determinant() < 0) {
+    throw ModelError(element + " " + quoted(name) + " has a placement that is " +
+                         (finite ? "no rotation" : "not finite"),
+                     element, name);
   }
-  throw ModelError(element + " " + quoted(name) + " has a placement that is " +
-                       (finite ? "no rotation" : "not finite"),
-                   element, name);
+  if (defect < 1e-14) return X;  // as good as computed; zeros and ones stay as they are
+  return {Eigen::Quaterniond(X.R).normalized().toRotationMatrix(), X.p};
 }
 
 template <class Items>
@@ -105,7 +105,8 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
     throw ModelError("joint " + quoted(joint.name) + " " + what, "joint", joint.name);
   };
   check_new_name(joints_, "joint", joint.name);
-  check_pose(joint.X_PJ, "joint", joint.name);
+  JointSpec checked = joint;
+  checked.X_PJ = checked_pose(joint.X_PJ, "joint", joint.name);
   if (!joint.axis.allFinite()) fail("has an axis that is not finite: " + show(joint.axis));
   if (joint.axis.norm() == 0) fail("has zero axis");
   if (!std::isfinite(joint.pitch)) fail("has a pitch that is not finite");
@@ -118,17 +119,16 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
   for (const double number : {joint.velocity, joint.effort, joint.damping, joint.friction}) {
     if (std::isnan(number)) fail("has a limit, damping or friction that is not a number");
   }
-  if (joint.mimic && !(std::isfinite(joint.mimic->multiplier) &&
-                       std::isfinite(joint.mimic->offset))) {
+  if (joint.mimic &&
+      !(std::isfinite(joint.mimic->multiplier) && std::isfinite(joint.mimic->offset))) {
     fail("has a mimic multiplier or offset that is not finite");
   }
-  joints_.push_back(joint);
+  joints_.push_back(std::move(checked));
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shape,
                                       const Pose& X_LG) {
-  check_pose(X_LG, "link", link);
   const Vec3 size = std::visit(SizeOfShape{}, shape);
   const bool half_length_may_be_zero = std::holds_alternative<Capsule>(shape) && size[2] == 0;
   if (!size.allFinite() || (size.head<2>().array() <= 0).any() ||
@@ -138,21 +138,21 @@ ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shap
                      "link", link);
   }
   if (std::holds_alternative<HalfSpace>(shape) && link != root_) {
-    throw ModelError("link " + quoted(link) +
-                         " carries a half-space, which only the root link " + quoted(root_) +
-                         " may",
+    throw ModelError("link " + quoted(link) + " carries a half-space, which only the root link " +
+                         quoted(root_) + " may",
                      "link", link);
   }
-  shapes_.push_back({link, "", shape, X_LG});
+  shapes_.push_back({link, "", shape, checked_pose(X_LG, "link", link)});
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& normal,
                                            double offset) {
   if (!normal.allFinite() || normal.norm() == 0 || !std::isfinite(offset)) {
-    throw ModelError("half-space " + quoted(name) + " has normal " + show(normal) +
-                         "; it must be finite and not zero",
-                     "half_space", name);
+    std::ostringstream text;
+    text << "half-space " << quoted(name) << " has normal " << show(normal) << " and offset "
+         << offset << "; both are finite, and the normal is not zero";
+    throw ModelError(text.str(), "half_space", name);
   }
   for (const ShapeSpec& shape : shapes_) {
     if (shape.name == name) {

@@ -29,16 +29,14 @@ Vec3 step_from_parent(const Tree& tree, int i, const Mat3& R_WP, const Vec3& axi
 
 void set_rotation(const Tree& tree, int i, double s, Kinematics& kin) {
   const int parent = tree.parent[i];
-  const Mat3 R =
-      parent < 0 ? tree.X_PJ[i].R : Mat3(kin.joint[parent].R * tree.X_PJ[i].R);
+  const Mat3 R = parent < 0 ? tree.X_PJ[i].R : Mat3(kin.joint[parent].R * tree.X_PJ[i].R);
   kin.joint[i].R = tree.joint[i].turns() ? turned(R, s) : R;
 }
 
 Vec3 step_of(const Tree& tree, int i, const VecRef& q, const Kinematics& kin) {
   const int parent = tree.parent[i];
   const Mat3 R_WP = parent < 0 ? Mat3(Mat3::Identity()) : kin.joint[parent].R;
-  return step_from_parent(tree, i, R_WP, kin.joint[i].R.col(2),
-                          displacement(tree.drive[i], q));
+  return step_from_parent(tree, i, R_WP, kin.joint[i].R.col(2), displacement(tree.drive[i], q));
 }
 
 /// Places the joints from the root to the reference joint so that the latter is at O exactly.

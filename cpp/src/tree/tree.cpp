@@ -17,8 +17,8 @@ int add_joint(Tree& tree, int parent, const Joint& joint, const Pose& X_PJ, cons
   const std::size_t reference = static_cast<std::size_t>(tree.reference[root]);
   if (joint.turns() && !tree.joint[reference].turns()) tree.reference[root] = i;
   if (drive.coordinate >= tree.coordinates) tree.coordinates = drive.coordinate + 1;
-  tree.one_to_one = tree.one_to_one && drive.coordinate == i && drive.multiplier == 1 &&
-                    drive.offset == 0;
+  tree.one_to_one =
+      tree.one_to_one && drive.coordinate == i && drive.multiplier == 1 && drive.offset == 0;
   return i;
 }
 

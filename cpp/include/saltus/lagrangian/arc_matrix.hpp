@@ -30,12 +30,12 @@ struct ArcMatrix {
     Vec9 s, t, gain, row;  ///< gain = P s + w
     double inverse_D;
   };
-  std::vector<Row> joint;       ///< (n)
-  std::vector<Mat9> P;          ///< (n) scratch of factorize
-  std::vector<Vec9> c, a;       ///< (n) scratch of solve
-  VecX e;                       ///< (n) scratch of solve
-  MatX dense;                   ///< (n_q, n_q) with mimic joints only
-  Eigen::PartialPivLU<MatX> lu; ///< of dense
+  std::vector<Row> joint;        ///< (n)
+  std::vector<Mat9> P;           ///< (n) scratch of factorize
+  std::vector<Vec9> c, a;        ///< (n) scratch of solve
+  VecX e;                        ///< (n) scratch of solve
+  MatX dense;                    ///< (n_q, n_q) with mimic joints only
+  Eigen::PartialPivLU<MatX> lu;  ///< of dense
 
   ArcMatrix() = default;
   explicit ArcMatrix(const Tree& tree);

@@ -22,9 +22,9 @@ namespace saltus {
 
 /// Mass of all bodies that move with one joint, in the joint's frame.
 struct BodyInertia {
-  double mass = 0;           ///< [kg]
-  Vec3 c_J = Vec3::Zero();   ///< [m] centre of mass
-  Mat3 I_J = Mat3::Zero();   ///< [kg m^2] about the centre of mass, axes of J
+  double mass = 0;          ///< [kg]
+  Vec3 c_J = Vec3::Zero();  ///< [m] centre of mass
+  Mat3 I_J = Mat3::Zero();  ///< [kg m^2] about the centre of mass, axes of J
 };
 
 /// Two bodies welded together.
@@ -34,17 +34,17 @@ SALTUS_EXPORT BodyInertia weld(const BodyInertia& a, const BodyInertia& b);
 SALTUS_EXPORT BodyInertia transform(const Pose& X_PB, const BodyInertia& body_B);
 
 struct MassModel {
-  std::vector<BodyInertia> body;         ///< (n) by joint
-  Vec3 gravity = Vec3(0, 0, -9.81);      ///< [m/s^2]
+  std::vector<BodyInertia> body;     ///< (n) by joint
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
 };
 
 /// What one subtree contributes.
 struct JointComposite {
-  Inertia Ic;    ///< about O: own body after first_pass, whole subtree after second_pass
-  Vec6 H;        ///< momentum wrench of the subtree         written by first_pass
-  Vec6 g;        ///< gravity's wrench on the subtree        written by first_pass
-  Vec6 U, F;     ///< see above                              written by second_pass
-  Vec3 G;        ///< angular part of G_i                    written by second_pass
+  Inertia Ic;  ///< about O: own body after first_pass, whole subtree after second_pass
+  Vec6 H;      ///< momentum wrench of the subtree         written by first_pass
+  Vec6 g;      ///< gravity's wrench on the subtree        written by first_pass
+  Vec6 U, F;   ///< see above                              written by second_pass
+  Vec3 G;      ///< angular part of G_i                    written by second_pass
 };
 
 struct Composite {

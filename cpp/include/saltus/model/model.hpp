@@ -27,19 +27,19 @@ enum class JointType {
 /// A rigid link: a frame that moves with a joint frame.
 struct Link {
   std::string name;
-  int joint = -1;     ///< index in the tree; -1: fixed to the world
-  Pose X_JL;          ///< the link's frame in the joint's frame
-  double mass = 0;    ///< [kg] own mass
+  int joint = -1;   ///< index in the tree; -1: fixed to the world
+  Pose X_JL;        ///< the link's frame in the joint's frame
+  double mass = 0;  ///< [kg] own mass
 };
 
 /// A generalized coordinate and what the file says of it. Limits, damping and friction are kept
 /// for the user; the stepper does not apply them.
 struct Coordinate {
-  std::string name;             ///< the joint's name; `<joint>_x` ... for joints of several
-  std::string joint;            ///< name of the joint that it belongs to
-  bool angular = true;          ///< [rad] or [m]
-  double lower, upper;          ///< [rad | m] infinite where there is none
-  double velocity, effort;      ///< limits, infinite where there is none
+  std::string name;                  ///< the joint's name; `<joint>_x` ... for joints of several
+  std::string joint;                 ///< name of the joint that it belongs to
+  bool angular = true;               ///< [rad] or [m]
+  double lower, upper;               ///< [rad | m] infinite where there is none
+  double velocity, effort;           ///< limits, infinite where there is none
   double damping = 0, friction = 0;  ///< [N m s/rad | N s/m], [N m | N]
 };
 
@@ -47,9 +47,9 @@ struct Coordinate {
 struct JointInfo {
   std::string name;
   JointType type;
-  std::string parent, child;      ///< links
-  std::vector<int> frames;        ///< joints of the tree, outermost last; none where fixed
-  std::vector<int> coordinates;   ///< those that move it
+  std::string parent, child;     ///< links
+  std::vector<int> frames;       ///< joints of the tree, outermost last; none where fixed
+  std::vector<int> coordinates;  ///< those that move it
 };
 
 struct ModelData {
@@ -58,19 +58,19 @@ struct ModelData {
   MassModel mass;
   std::vector<Link> links;
   std::vector<JointInfo> joints;
-  std::vector<Coordinate> coordinates;   ///< (n_q)
+  std::vector<Coordinate> coordinates;  ///< (n_q)
   std::vector<PlacedShape> shapes;
   std::vector<Pair> pairs;
-  std::vector<std::string> warnings;     ///< what was understood but is not used
-  std::string source;                    ///< text the model was read from; "" if built in code
+  std::vector<std::string> warnings;  ///< what was understood but is not used
+  std::string source;                 ///< text the model was read from; "" if built in code
 };
 
 /// Gaps of all pairs at one configuration, dense, for people.
 struct Gaps {
-  std::vector<std::string> names;                          ///< (m) "a ~ b"
-  VecX phi;                                                ///< (m) [m]
-  MatX phi_q;                                              ///< (m, n_q)
-  std::vector<MatX> phi_qq;                                ///< (m) of (n_q, n_q)
+  std::vector<std::string> names;  ///< (m) "a ~ b"
+  VecX phi;                        ///< (m) [m]
+  MatX phi_q;                      ///< (m, n_q)
+  std::vector<MatX> phi_qq;        ///< (m) of (n_q, n_q)
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> normal, p_WA, p_WB;  ///< (m, 3)
 };
 
@@ -93,9 +93,9 @@ class SALTUS_EXPORT Model {
   LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
   MatX mass_matrix(const VecRef& q) const;
   Gaps gaps(const VecRef& q) const;
-  double kinetic_energy(const State& state) const;    ///< [J]
-  double potential_energy(const VecRef& q) const;     ///< [J] zero at the world's origin
-  Pose X_WL(const VecRef& q, int link) const;         ///< pose of a link in the world
+  double kinetic_energy(const State& state) const;  ///< [J]
+  double potential_energy(const VecRef& q) const;   ///< [J] zero at the world's origin
+  Pose X_WL(const VecRef& q, int link) const;       ///< pose of a link in the world
 
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are

@@ -25,11 +25,11 @@ struct Mimic {
 struct JointSpec {
   std::string name;
   JointType type = JointType::revolute;
-  std::string parent, child;          ///< links
-  Pose X_PJ = {};                     ///< joint (= child link) frame in the parent link's frame
-  Vec3 axis = Vec3::UnitX();          ///< in the joint's frame, any length but 0
-  double pitch = 0;                   ///< [m/rad] helical only
-  std::optional<Mimic> mimic = {};    ///< one-coordinate joints only
+  std::string parent, child;        ///< links
+  Pose X_PJ = {};                   ///< joint (= child link) frame in the parent link's frame
+  Vec3 axis = Vec3::UnitX();        ///< in the joint's frame, any length but 0
+  double pitch = 0;                 ///< [m/rad] helical only
+  std::optional<Mimic> mimic = {};  ///< one-coordinate joints only
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double velocity = std::numeric_limits<double>::infinity();

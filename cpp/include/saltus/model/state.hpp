@@ -10,9 +10,7 @@ struct State {
   VecX q;        ///< (n_q) [rad | m]
   VecX p;        ///< (n_q) [kg m^2 rad/s | kg m/s] conjugate momenta, p = L_v
 
-  bool operator==(const State& other) const {
-    return t == other.t && q == other.q && p == other.p;
-  }
+  bool operator==(const State& other) const { return t == other.t && q == other.q && p == other.p; }
 };
 
 }  // namespace saltus

@@ -58,9 +58,9 @@ inline Vec6 cross_force(const Vec6& a, const Vec6& f) {
 
 /// Spatial inertia about the reference point O, in world axes.
 struct Inertia {
-  double mass = 0;          ///< [kg]
-  Vec3 h = Vec3::Zero();    ///< [kg m] mass times centre of mass, from O
-  Mat3 I = Mat3::Zero();    ///< [kg m^2] rotational inertia about O
+  double mass = 0;        ///< [kg]
+  Vec3 h = Vec3::Zero();  ///< [kg m] mass times centre of mass, from O
+  Mat3 I = Mat3::Zero();  ///< [kg m^2] rotational inertia about O
 
   Inertia& operator+=(const Inertia& other) {
     mass += other.mass;
@@ -78,8 +78,7 @@ struct Inertia {
 /// Inertia about a point from mass, centre of mass `c` relative to that point, and the
 /// rotational inertia `I_c` about the centre of mass (same axes).
 inline Inertia inertia_about(double mass, const Vec3& c, const Mat3& I_c) {
-  return {mass, mass * c,
-          I_c + mass * (c.squaredNorm() * Mat3::Identity() - c * c.transpose())};
+  return {mass, mass * c, I_c + mass * (c.squaredNorm() * Mat3::Identity() - c * c.transpose())};
 }
 
 }  // namespace saltus

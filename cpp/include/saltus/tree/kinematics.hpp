@@ -27,8 +27,7 @@ struct Kinematics {
   std::vector<Vec3> origin;        ///< (n) [m] p_WO of the tree that joint i belongs to; by root
 
   Kinematics() = default;
-  explicit Kinematics(const Tree& tree)
-      : joint(tree.parent.size()), origin(tree.parent.size()) {}
+  explicit Kinematics(const Tree& tree) : joint(tree.parent.size()), origin(tree.parent.size()) {}
 
   /// Pose of joint frame i in the world; i = -1 is the world itself.
   Pose X_WJ(const Tree& tree, int i) const {

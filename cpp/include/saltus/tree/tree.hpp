@@ -31,14 +31,14 @@ struct Drive {
 
 /// Joints in topological order: `parent[i] < i`; -1 is the world.
 struct Tree {
-  int coordinates = 0;           ///< n_q
-  std::vector<int> parent;       ///< (n)
-  std::vector<Joint> joint;      ///< (n)
-  std::vector<Pose> X_PJ;        ///< (n) placement in the parent's frame at s = 0
-  std::vector<Drive> drive;      ///< (n)
-  std::vector<int> root;         ///< (n) the world's child above joint i (or i itself)
-  std::vector<int> reference;    ///< (n) valid at roots: the joint whose origin is O of that tree
-  bool one_to_one = true;        ///< drive[i] = {i, 1, 0} for all i: no mimic joints
+  int coordinates = 0;         ///< n_q
+  std::vector<int> parent;     ///< (n)
+  std::vector<Joint> joint;    ///< (n)
+  std::vector<Pose> X_PJ;      ///< (n) placement in the parent's frame at s = 0
+  std::vector<Drive> drive;    ///< (n)
+  std::vector<int> root;       ///< (n) the world's child above joint i (or i itself)
+  std::vector<int> reference;  ///< (n) valid at roots: the joint whose origin is O of that tree
+  bool one_to_one = true;      ///< drive[i] = {i, 1, 0} for all i: no mimic joints
 
   int joints() const { return static_cast<int>(parent.size()); }
   bool is_ancestor(int i, int j) const {  ///< i is j or above j

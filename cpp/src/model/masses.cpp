@@ -1,0 +1,80 @@
+// Links' inertias welded into the bodies of joints; joints that move no mass.
+#include "model/assembly.hpp"
+#include "saltus/lagrangian/arc_matrix.hpp"
+
+namespace saltus {
+namespace {
+
+/// The inertia that a force on one coordinate feels [kg m^2 | kg].
+struct FeltInertia {
+  double free;    ///< with all coordinates after it free: its pivot in the mass matrix
+  double locked;  ///< with all others held: its entry on the diagonal
+  double scale;   ///< bound of the terms that `locked` is the sum of
+};
+
+/// Pivots of a symmetric matrix eliminated from its last row up.
+VecX pivots_from_last(MatX M) {
+  for (Eigen::Index k = M.rows() - 1; k > 0; --k) {
+    M.topLeftCorner(k, k) -= M.col(k).head(k) * (M.row(k).head(k) / M(k, k));
+  }
+  return M.diagonal();
+}
+
+double scale_of(const Vec6& S, const Inertia& Ic) {
+  const double a = angular(S).norm(), l = linear(S).norm();
+  return a * a * Ic.I.trace() + 2 * a * l * Ic.h.norm() + l * l * Ic.mass;
+}
+
+std::vector<FeltInertia> felt_inertias(const Tree& tree, const MassModel& mass) {
+  Kinematics kin(tree);
+  Composite comp(tree);
+  VecX q(tree.coordinates);
+  for (int i = 0; i < q.size(); ++i) q[i] = 0.3 + 0.1 * (i % 7);  // no special configuration
+  set_configuration(tree, q, kin);
+  set_velocity(tree, VecX::Zero(tree.coordinates), kin);
+  first_pass(tree, mass, kin, comp);
+  second_pass(tree, mass, kin, comp);
+
+  std::vector<FeltInertia> felt(static_cast<std::size_t>(tree.coordinates), {0, 0, 0});
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    felt[drive.coordinate].scale +=
+        drive.multiplier * drive.multiplier * scale_of(kin.joint[i].S, comp.joint[i].Ic);
+  }
+  ArcMatrix M(tree);
+  factorize(tree, kin, comp, 0, M);
+  const VecX dense_pivots = tree.one_to_one ? VecX() : pivots_from_last(M.dense);
+  for (int c = 0; c < tree.coordinates; ++c) {
+    felt[c].free = tree.one_to_one ? 1 / M.joint[c].inverse_D : dense_pivots[c];
+    felt[c].locked = tree.one_to_one ? kin.joint[c].S.dot(comp.joint[c].U) : M.dense(c, c);
+  }
+  return felt;
+}
+
+}  // namespace
+
+void Assembly::add_masses() {
+  m_.mass.body.resize(m_.tree.parent.size());
+  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
+    if (place_[i].joint < 0) continue;  // fixed to the world: cannot move
+    BodyInertia& body = m_.mass.body[place_[i].joint];
+    body = weld(body, transform(place_[i].X_JF, b_.links_[i].inertia));
+  }
+}
+
+// Where `free` vanishes against `locked`, no force is needed to move the coordinate: what is below
+// gives way. Where `locked` vanishes against `scale`, all mass lies on the axis. Elimination ends
+// at the first such pivot, the last in order, and those before it are not to be looked at.
+void Assembly::check_masses() const {
+  const std::vector<FeltInertia> felt = felt_inertias(m_.tree, m_.mass);
+  for (int c = m_.tree.coordinates - 1; c >= 0; --c) {
+    // 1e-12, 1e-14: rounding of the sweep and of one sum, with a few digits to spare
+    if (felt[c].free > 1e-12 * felt[c].locked && felt[c].locked > 1e-14 * felt[c].scale) continue;
+    const JointSpec& joint = b_.joints_[joint_.at(m_.coordinates[c].joint)];
+    throw ModelError("joint " + quoted(joint.name) + " moves no mass: give link " +
+                         quoted(joint.child) + " or a link below it a mass and an inertia",
+                     "joint", joint.name);
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,64 @@
+#include "saltus/model/motion.hpp"
+
+namespace saltus {
+namespace {
+
+void check_rows(const Model& model, const Eigen::Ref<const MatX>& x, const std::string& what) {
+  if (x.cols() != model.n_q()) {
+    throw ModelError("rows of " + what + " have " + std::to_string(x.cols()) +
+                     " entries; the model has " + std::to_string(model.n_q()) + " coordinates");
+  }
+  for (Eigen::Index row = 0; row < x.rows(); ++row) {
+    if (x.row(row).allFinite()) continue;
+    throw ModelError("row " + std::to_string(row) + " of " + what + " is not finite");
+  }
+}
+
+}  // namespace
+
+AttachedFrame link_frame(const Model& model, int link) {
+  const Link& l = model->links.at(static_cast<std::size_t>(link));
+  return {l.joint, l.X_JL};
+}
+
+AttachedFrame shape_frame(const Model& model, int shape) {
+  const PlacedShape& s = model->shapes.at(static_cast<std::size_t>(shape));
+  return {s.joint, s.X_JG};
+}
+
+MatX poses(const Model& model, const AttachedFrame& frame, const Eigen::Ref<const MatX>& q) {
+  check_rows(model, q, "q");
+  Kinematics kin(model->tree);
+  MatX out(q.rows(), 16);
+  for (Eigen::Index row = 0; row < q.rows(); ++row) {
+    set_configuration(model->tree, q.row(row).transpose(), kin);
+    const Pose X_WF = kin.X_WJ(model->tree, frame.joint) * frame.X_JF;
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(out.row(row).data());
+    T << X_WF.R, X_WF.p, 0, 0, 0, 1;
+  }
+  return out;
+}
+
+MatX velocities(const Model& model, const AttachedFrame& frame, const Eigen::Ref<const MatX>& q,
+                const Eigen::Ref<const MatX>& v) {
+  check_rows(model, q, "q");
+  check_rows(model, v, "v");
+  if (q.rows() != v.rows()) {
+    throw ModelError("q has " + std::to_string(q.rows()) + " rows and v " +
+                     std::to_string(v.rows()));
+  }
+  Kinematics kin(model->tree);
+  MatX out = MatX::Zero(q.rows(), 6);
+  if (frame.joint < 0) return out;
+  for (Eigen::Index row = 0; row < q.rows(); ++row) {
+    set_configuration(model->tree, q.row(row).transpose(), kin);
+    set_velocity(model->tree, v.row(row).transpose(), kin);
+    const JointMotion& joint = kin.joint[static_cast<std::size_t>(frame.joint)];
+    const Vec3 p = joint.p + joint.R * frame.X_JF.p;  // from O, as the twist V is
+    out.row(row) << angular(joint.V).transpose(),
+        (linear(joint.V) + angular(joint.V).cross(p)).transpose();
+  }
+  return out;
+}
+
+}  // namespace saltus
