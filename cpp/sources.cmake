@@ -11,11 +11,24 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/energy.cpp
   cpp/src/lagrangian/partials.cpp
   # collision
+  cpp/src/collision/broad_phase.cpp
+  cpp/src/collision/chord.cpp
+  cpp/src/collision/chord_bounds.cpp
+  cpp/src/collision/chord_path.cpp
+  cpp/src/collision/contact.cpp
+  cpp/src/collision/gap.cpp
+  cpp/src/collision/shapes.cpp
+  cpp/src/collision/sphere_box.cpp
+  cpp/src/collision/sphere_capsule.cpp
+  cpp/src/collision/sphere_cylinder.cpp
+  cpp/src/collision/sphere_half_space.cpp
+  cpp/src/collision/sphere_sphere.cpp
   # model
   cpp/src/model/assembly.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
+  cpp/src/model/motion.cpp
   cpp/src/model/pairs.cpp
   cpp/src/model/topology.cpp
   # variational
@@ -32,7 +45,38 @@ set(SALTUS_SOURCES
 )
 
 set(SALTUS_BINDING_SOURCES
-  # python/bindings/core.cpp
+  python/bindings/arguments.cpp
+  python/bindings/core.cpp
+  python/bindings/bind_errors.cpp
+  # spatial
+  python/bindings/bind_spatial.cpp
+  # lagrangian
+  python/bindings/bind_lagrangian.cpp
+  # collision
+  cpp/src/collision/broad_phase.cpp
+  cpp/src/collision/chord.cpp
+  cpp/src/collision/chord_bounds.cpp
+  cpp/src/collision/chord_path.cpp
+  cpp/src/collision/contact.cpp
+  cpp/src/collision/gap.cpp
+  cpp/src/collision/shapes.cpp
+  cpp/src/collision/sphere_box.cpp
+  cpp/src/collision/sphere_capsule.cpp
+  cpp/src/collision/sphere_cylinder.cpp
+  cpp/src/collision/sphere_half_space.cpp
+  cpp/src/collision/sphere_sphere.cpp
+  python/bindings/bind_collision.cpp
+  # model
+  python/bindings/bind_model.cpp
+  python/bindings/bind_model_builder.cpp
+  python/bindings/bind_motion.cpp
+  # urdf
+  python/bindings/bind_urdf.cpp
+  # variational
+  python/bindings/bind_stepper.cpp
+  python/bindings/bind_variational.cpp
+  # rollout
+  python/bindings/bind_rollout.cpp
 )
 
 if(NOT SALTUS_SOURCES)

@@ -1,13 +1,12 @@
 // Certified advance along a chord q(s) = q + s dq, s in [0, 1]: no root of a gap is stepped over.
 //
-// Theory, section 4. With rho_k the greatest distance from axis k to the surface it moves (1 for a
-// prismatic joint) and R_k that to P, the centre of sphere a,
+// Theory, section 4, in the sharper form that convexity allows (derived in chord_bounds.cpp): with
+// P the centre of sphere a seen from b, mu >= |phi'|, B >= |P''|, C >= |P'''| from the reaches of
+// the joints between a and b, the gap stays above its floor while any of these stays >= 0:
 //
-//   |phi'(s)|  <= mu = sum |dq_k| rho_k
-//   |phi''(s)| <= B  = sum_{i<=l} (2 - delta_il) |dq_i||dq_l| R_l [i turns] + (sum |dq_k| R_k)^2 / r_min
-//   advance by d = (phi' + sqrt(phi'^2 + 2 B phi)) / B
+//   phi - mu d,    phi + phi' d - B d^2/2,    phi + phi' d + n.P'' d^2/2 - C d^3/6
 //
-// r_min is the least radius of F's curvature while phi >= 0 (the sphere's own radius, plus b's).
+// The curvature of the shapes does not enter: the distance from a convex solid is convex.
 #pragma once
 
 #include "saltus/collision/contact.hpp"
@@ -20,13 +19,18 @@ struct ChordHit {
   double s = 1;  ///< where phi first falls to `floor` (hit), or how far it is certified clear
 };
 
-/// Bound mu on how much the pair's gap can change along the whole chord [m].
+/// Bound mu on how much the pair's gap can change along the whole chord [m]. Infinite where b is
+/// a half-space that moves.
 SALTUS_EXPORT double gap_change_bound(const Tree& tree, const std::vector<PlacedShape>& shapes,
                                       const Pair& pair, const VecRef& q, const VecRef& dq);
 
 /// First s >= 0 with phi(q + s dq) <= floor, looking from s = 0 where phi >= floor or, for a pair
-/// that touches there, from its departure on: a pair with |phi| about 0 and phi' > 0 is not a hit
-/// at s = 0, one with phi' <= 0 is. Bounded; allocates nothing.
+/// that touches or overlaps there, from its departure on: a pair with phi <= floor and phi' > 0 is
+/// not a hit at s = 0, one with phi' <= 0 is ("=" in both: up to rounding). An s that is hit is
+/// never late, and early by less than phi's rounding. Needs a sphere as a. Allocates nothing.
+///
+/// Bounded: two bodies that swing together nearer to the floor than about 1e-6 of the third power
+/// of their motion are not_converged, clear up to s.
 SALTUS_EXPORT ChordHit first_hit_on_chord(const Tree& tree, const std::vector<PlacedShape>& shapes,
                                           const Pair& pair, const VecRef& q, const VecRef& dq,
                                           double floor);

@@ -1,0 +1,195 @@
+// Swept balls, then sweep and prune along the axis of greatest spread.
+//
+// Reference: C. Ericson, Real-Time Collision Detection, sections 7.5.1-7.5.2 (2005), for the sweep.
+// The balls, down the tree, with x_j = |ds_j| of joint j, c its origin from its parent's at q:
+//
+//   turned_j = turned_P + x_j                           (if j turns)
+//   moved_j  = moved_P + sway(c) + x_j |slide per unit|
+//   sway(c)  = min(turned_G, 2) |c| + min(x_P, 2) |c off P's axis|      G: the parent of P
+//
+// sway(c) is the most that the turning of P moves a point c fixed in it: a turn by t moves a unit
+// vector by no more than min(t, 2), and P's own turn only what is off its axis.
+#include "saltus/collision/broad_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace saltus {
+namespace {
+
+constexpr std::size_t most_reserved = 1'000'000;
+
+/// Relative to coordinates in the world; positions are summed over joints with 1e-16 each. Added
+/// to every ball so that rounding drops no pair that just touches.
+constexpr double rounding = 1e-14;
+
+/// A new axis must spread the shapes this much more, or the order would be sorted anew for little.
+constexpr double better_axis = 2;
+
+bool is_unbounded(const PlacedShape& shape) {
+  return std::holds_alternative<HalfSpace>(shape.shape);
+}
+
+double change(const Tree& tree, const VecRef& dq, int joint) {
+  const Drive& drive = tree.drive[joint];
+  return std::abs(drive.multiplier * dq[drive.coordinate]);
+}
+
+/// The most a point at `c_W` from joint frame P's origin moves because P turns.
+double sway(const Tree& tree, const Kinematics& kin, const VecRef& dq, const BroadPhase& bp, int P,
+            const Vec3& c_W) {
+  if (P < 0) return 0;
+  double own = 0;
+  if (tree.joint[P].turns()) {
+    own = std::fmin(change(tree, dq, P), 2) * c_W.cross(kin.joint[P].R.col(2)).norm();
+  }
+  const int G = tree.parent[P];
+  return own + (G < 0 ? 0 : std::fmin(bp.turned[G], 2) * c_W.norm());
+}
+
+void bound_joints(const Tree& tree, const Kinematics& kin, const VecRef& dq, BroadPhase& bp) {
+  for (int j = 0; j < tree.joints(); ++j) {
+    const int P = tree.parent[j];
+    const double x = change(tree, dq, j);
+    const Joint& joint = tree.joint[j];
+    bp.turned[j] = (P < 0 ? 0 : bp.turned[P]) + (joint.turns() ? x : 0);
+    bp.moved[j] = x * (joint.turns() ? std::abs(joint.pitch) : 1);
+    if (P < 0) continue;
+    bp.moved[j] += bp.moved[P] + sway(tree, kin, dq, bp, P, kin.joint[j].p - kin.joint[P].p);
+  }
+}
+
+void place_balls(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
+                 const VecRef& dq, double margin, BroadPhase& bp) {
+  for (const int i : bp.order) {
+    const PlacedShape& shape = shapes[i];
+    const int j = shape.joint;
+    const Pose X_WJ = kin.X_WJ(tree, j);
+    const Vec3 c_W = X_WJ.R * shape.X_JG.p;
+    bp.center[i] = X_WJ.p + c_W;
+    const double motion = j < 0 ? 0 : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W);
+    // half the margin a ball: margin a pair
+    const double radius = bounding_radius(shape.shape) + motion + margin / 2;
+    bp.reach[i] = radius + rounding * (bp.center[i].cwiseAbs().maxCoeff() + radius);
+  }
+}
+
+/// Along which the squares of the centres' distances from their mean have the greatest sum.
+void choose_axis(BroadPhase& bp) {
+  Vec3 mean = Vec3::Zero(), square = Vec3::Zero();
+  const double n = static_cast<double>(bp.order.size());
+  for (const int i : bp.order) mean += bp.center[i] / n;
+  for (const int i : bp.order) square += (bp.center[i] - mean).cwiseAbs2();
+  int best = 0;
+  if (square.maxCoeff(&best) > better_axis * square[bp.axis]) bp.axis = best;
+}
+
+/// Insertion sort, given up for a full sort where the order has changed too much for it.
+void sort_by_lower(BroadPhase& bp) {
+  std::vector<int>& order = bp.order;
+  const auto before = [&](int i, int j) { return bp.lower[i] < bp.lower[j]; };
+  std::size_t moves_left = 8 * order.size();  // about what a full sort costs
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const int i = order[k];
+    std::size_t hole = k;
+    for (; hole > 0 && before(i, order[hole - 1]); --hole) order[hole] = order[hole - 1];
+    order[hole] = i;
+    if (k - hole > moves_left) return std::sort(order.begin(), order.end(), before);
+    moves_left -= k - hole;
+  }
+}
+
+/// Adds the pairs of two shapes, if there are any.
+void add_candidates(int i, int j, BroadPhase& bp) {
+  const auto [row, shape] = std::minmax(i, j);
+  const auto first = bp.partner.begin() + bp.first_partner[row];
+  const auto end = bp.partner.begin() + bp.first_partner[row + 1];
+  auto found = std::lower_bound(first, end, shape,
+                                [](const BroadPhase::Partner& p, int s) { return p.shape < s; });
+  for (; found != end && found->shape == shape; ++found) bp.candidates.push_back(found->pair);
+}
+
+void sweep(BroadPhase& bp) {
+  for (std::size_t k = 0; k < bp.order.size(); ++k) {
+    const int i = bp.order[k];
+    const double upper = bp.center[i][bp.axis] + bp.reach[i];
+    for (std::size_t m = k + 1; m < bp.order.size() && bp.lower[bp.order[m]] <= upper; ++m) {
+      const int j = bp.order[m];
+      const double touching = bp.reach[i] + bp.reach[j];
+      if ((bp.center[i] - bp.center[j]).squaredNorm() <= touching * touching) {
+        add_candidates(i, j, bp);
+      }
+    }
+  }
+}
+
+/// Pairs with a half-space z <= 0, which does not move.
+void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
+                    BroadPhase& bp) {
+  for (const int i : bp.unbounded) {
+    const Pose X_WG = kin.X_WJ(tree, shapes[i].joint) * shapes[i].X_JG;
+    for (int k = bp.first_partner[i]; k < bp.first_partner[i + 1]; ++k) {
+      const BroadPhase::Partner& partner = bp.partner[k];
+      const Vec3 c = bp.center[partner.shape] - X_WG.p;
+      const double slack = rounding * X_WG.p.cwiseAbs().maxCoeff();
+      if (X_WG.R.col(2).dot(c) <= bp.reach[partner.shape] + slack) {
+        bp.candidates.push_back(partner.pair);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+BroadPhase::BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
+                       const std::vector<Pair>& pairs)
+    : first_partner(shapes.size() + 1, 0),
+      center(shapes.size()),
+      reach(shapes.size()),
+      lower(shapes.size()),
+      moved(tree.parent.size()),
+      turned(tree.parent.size()) {
+  candidates.reserve(std::min(pairs.size(), most_reserved));
+  // One row a shape: a half-space's own, else that of the smaller index.
+  struct Entry {
+    int row, shape, pair;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(pairs.size());
+  std::vector<bool> used(shapes.size(), false);
+  for (int k = 0; k < static_cast<int>(pairs.size()); ++k) {
+    const auto [low, high] = std::minmax(pairs[k].a, pairs[k].b);
+    const bool high_first = is_unbounded(shapes[high]);
+    entries.push_back({high_first ? high : low, high_first ? low : high, k});
+    used[low] = used[high] = true;
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+    return std::tie(x.row, x.shape, x.pair) < std::tie(y.row, y.shape, y.pair);
+  });
+  partner.reserve(pairs.size());
+  for (const Entry& entry : entries) {
+    partner.push_back({entry.shape, entry.pair});
+    ++first_partner[entry.row + 1];
+  }
+  std::partial_sum(first_partner.begin(), first_partner.end(), first_partner.begin());
+  for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
+    if (used[i]) (is_unbounded(shapes[i]) ? unbounded : order).push_back(i);
+  }
+}
+
+void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
+                     const Kinematics& kin, const VecRef& dq, double margin, BroadPhase& bp) {
+  bp.candidates.clear();
+  bound_joints(tree, kin, dq, bp);
+  place_balls(tree, shapes, kin, dq, margin, bp);
+  choose_axis(bp);
+  for (const int i : bp.order) bp.lower[i] = bp.center[i][bp.axis] - bp.reach[i];
+  sort_by_lower(bp);
+  sweep(bp);
+  meet_unbounded(tree, shapes, kin, bp);
+  std::sort(bp.candidates.begin(), bp.candidates.end());
+}
+
+}  // namespace saltus

@@ -1,0 +1,55 @@
+// The centre P of sphere a in the frame of shape b, along a chord q(s) = q + s dq.
+#pragma once
+
+#include "saltus/collision/contact.hpp"
+
+namespace saltus {
+
+/// What the functions of a chord are about; refers to the caller's data.
+struct Chord {
+  const Tree& tree;
+  const std::vector<PlacedShape>& shapes;
+  const Pair& pair;
+  const VecRef& q;
+  const VecRef& dq;
+
+  const PlacedShape& a() const { return shapes[pair.a]; }
+  const PlacedShape& b() const { return shapes[pair.b]; }
+  double start(int joint) const {  ///< [rad | m] displacement of a joint at s = 0
+    const Drive& drive = tree.drive[joint];
+    return drive.multiplier * q[drive.coordinate] + drive.offset;
+  }
+  double rate(int joint) const {  ///< [rad | m] its change over the whole chord
+    const Drive& drive = tree.drive[joint];
+    return drive.multiplier * dq[drive.coordinate];
+  }
+  double slide_per_unit(int joint) const {  ///< motion along the axis per unit of displacement
+    const Joint& j = tree.joint[joint];
+    return j.kind == Joint::Kind::prismatic ? 1 : j.pitch;
+  }
+};
+
+/// The gap at one s. Because d is convex, phi(s + d) >= phi + n.(P(s + d) - P(s)) for all d.
+struct ChordSample {
+  double phi;   ///< [m]
+  double rate;  ///< [m] phi' = n.P'
+  double bend;  ///< [m] n.P'': phi'' is this plus P'.F P' >= 0
+};
+
+ChordSample sample_chord(const Chord& chord, double s);
+
+/// Bounds on the motion over the whole chord.
+struct ChordBounds {
+  double mu;      ///< [m] |phi'| <= mu
+  double B;       ///< [m] |P''| <= B
+  double C;       ///< [m] |P'''| <= C
+  double length;  ///< [m] greatest coordinate that the walk from a to b meets
+};
+
+/// Writes mu and length; B and C are left 0.
+ChordBounds first_bounds(const Chord& chord);
+
+/// Adds B and C to the first bounds; `phi` is the gap at s = 0.
+void add_higher_bounds(const Chord& chord, double phi, ChordBounds& bounds);
+
+}  // namespace saltus

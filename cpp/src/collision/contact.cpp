@@ -1,0 +1,86 @@
+#include "saltus/collision/contact.hpp"
+
+#include <algorithm>
+
+namespace saltus {
+namespace {
+
+/// O of the tree that carries the joint; the world's origin for the world.
+Vec3 reference_point(const Tree& tree, const Kinematics& kin, int joint) {
+  return joint < 0 ? Vec3(Vec3::Zero()) : kin.origin[tree.root[joint]];
+}
+
+/// Pose of a shape with the origin moved to `origin_W`. `kin` holds positions from each tree's O,
+/// so two shapes of one tree keep all digits however far away it is.
+Pose pose_from(const Tree& tree, const Kinematics& kin, const PlacedShape& shape,
+               const Vec3& origin_W) {
+  if (shape.joint < 0) return {shape.X_JG.R, shape.X_JG.p - origin_W};
+  const JointMotion& m = kin.joint[shape.joint];
+  const Vec3 shift = reference_point(tree, kin, shape.joint) - origin_W;
+  return Pose{m.R, m.p + shift} * shape.X_JG;
+}
+
+/// Velocity of P, with body a, against body b for unit speed of one joint of the chain.
+Vec3 velocity_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
+  const Vec6& S = kin.joint[k.joint].S;
+  const Vec3 P = P_W - kin.origin[tree.root[k.joint]];
+  return k.sign * (angular(S).cross(P) + linear(S));
+}
+
+}  // namespace
+
+std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a) {
+  std::vector<ChainJoint> chain, branch_a;
+  while (joint_a != joint_b) {  // parents have smaller indices: always step up from the deeper
+    if (joint_b > joint_a) {
+      chain.push_back({joint_b, -1});
+      joint_b = tree.parent[joint_b];
+    } else {
+      branch_a.push_back({joint_a, +1});
+      joint_a = tree.parent[joint_a];
+    }
+  }
+  chain.insert(chain.end(), branch_a.rbegin(), branch_a.rend());
+  return chain;
+}
+
+Gap pair_gap(const Tree& tree, const Kinematics& kin, const std::vector<PlacedShape>& shapes,
+             const Pair& pair) {
+  const PlacedShape &a = shapes[pair.a], &b = shapes[pair.b];
+  const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
+  Gap g = gap(a.shape, pose_from(tree, kin, a, origin), b.shape, pose_from(tree, kin, b, origin));
+  g.p_WA += origin;
+  g.p_WB += origin;
+  g.center_W += origin;
+  return g;
+}
+
+void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                      Eigen::Ref<VecX> phi_q) {
+  for (const ChainJoint& k : pair.chain) {
+    const Drive& drive = tree.drive[k.joint];
+    phi_q[drive.coordinate] +=
+        drive.multiplier * gap.n_W.dot(velocity_of(tree, kin, k, gap.center_W));
+  }
+}
+
+void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                     Eigen::Ref<MatX> phi_qq) {
+  for (std::size_t l = 0; l < pair.chain.size(); ++l) {
+    const Drive& drive_l = tree.drive[pair.chain[l].joint];
+    const Vec3 u_l = velocity_of(tree, kin, pair.chain[l], gap.center_W);
+    const Vec3 F_u = gap.F_W * u_l, u_x_n = u_l.cross(gap.n_W);
+    for (std::size_t i = 0; i <= l; ++i) {
+      const ChainJoint& k = pair.chain[i];
+      const Drive& drive_i = tree.drive[k.joint];
+      const Vec3 u_i = velocity_of(tree, kin, k, gap.center_W);
+      // n.(w x u) = w.(u x n)
+      const double second = u_i.dot(F_u) + k.sign * angular(kin.joint[k.joint].S).dot(u_x_n);
+      const double value = drive_i.multiplier * drive_l.multiplier * second;
+      phi_qq(drive_i.coordinate, drive_l.coordinate) += value;
+      if (i < l) phi_qq(drive_l.coordinate, drive_i.coordinate) += value;
+    }
+  }
+}
+
+}  // namespace saltus
