@@ -1,16 +1,26 @@
 // URDF to ModelBuilder.
 //
-// urdfdom parses; what it lets pass (negative mass, zero axis, unknown mimic, duplicate names) is
-// checked here and in ModelBuilder, with file and line. Beyond URDF:
+// urdfdom parses; what it lets pass or drops (negative mass, zero axis, unknown mimic, a joint that
+// closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
+// 1.2 are read alike. Beyond URDF:
 //   * joints of type "spherical" or "ball" are three revolutes (yaw, pitch, roll);
+//   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is the cylinder's, along
+//   z,
+//     without the two half balls;
+//   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
 //   * a block `<saltus>` below `<robot>`, which other readers skip:
-//       <half_space name="floor" normal="0 0 1" offset="0"/>
-//       <capsule link="arm" radius="0.03" length="0.3"> <origin xyz="0 0 0" rpy="0 0 0"/> </capsule>
-//       <exclude link1="a" link2="b"/>
-//   * `<capsule radius length>` inside `<geometry>`.
+//       <half_space name="floor" normal="0 0 1" offset="0"/>    solid where normal.x <= offset
+//       <capsule link="arm" radius="0.03" length="0.3"> <origin xyz="0 0 0" rpy="0 0 0"/>
+//       </capsule> <exclude link1="a" link2="b"/>                          no gap is watched
+//       between these
+//     half_space: all three may be left out (the values above; the name is then "half_space").
+//
+// Not used, and named in a warning: collision meshes and other shapes without a gap function,
+// elements and attributes that URDF does not know. Visuals, materials, transmissions, safety
+// controllers and other programs' elements (gazebo, sensor, `ns:name`) are skipped: they move
+// nothing. The text itself stays available as the model's `source`.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,14 +29,20 @@
 namespace saltus {
 
 struct UrdfOptions {
-  Vec3 gravity = Vec3(0, 0, -9.81);           ///< [m/s^2]
-  std::vector<std::string> package_dirs = {}; ///< where `package://name/...` is looked up
-  /// How the root link hangs on the world: fixed, or by a joint named "root" (floating, planar, ...)
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
+  /// Where `package://name/rest` is looked up: a folder that holds `name`, or `name` itself. The
+  /// folders above the URDF file are searched too.
+  std::vector<std::string> package_dirs = {};
+  /// How the file's root link hangs on the world: fixed (its frame is the world's), or by a joint
+  /// named "root" (floating, planar, spherical; continuous or prismatic with axis z) below a link
+  /// named "world". Underscores are added where the file has these names already.
   JointType root_joint = JointType::fixed;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).
-/// @throws ModelError with file:line where known, element and name.
+/// Bounds: 64 MiB of text, elements nested as deep as tinyxml2 goes (500; 100 in old versions);
+/// entities are not expanded.
+/// @throws ModelError with "file:line:" where known ("URDF text:line:"), element and name.
 SALTUS_EXPORT ModelBuilder load_urdf(const std::string& path_or_text,
                                      const UrdfOptions& options = {});
 

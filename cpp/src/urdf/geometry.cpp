@@ -1,0 +1,80 @@
+#include "urdf/geometry.hpp"
+
+#include "urdf/mesh_path.hpp"
+#include "urdf/rewrite.hpp"
+
+namespace saltus::reader {
+namespace {
+
+const XMLElement* mesh_of(const XMLElement& collision_or_visual) {
+  const XMLElement* geometry = collision_or_visual.FirstChildElement("geometry");
+  return geometry == nullptr ? nullptr : geometry->FirstChildElement("mesh");
+}
+
+/// `is_capsule`: written as a cylinder for urdfdom's sake.
+Shape shape(const urdf::Geometry& geometry, bool is_capsule) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      return Sphere{dynamic_cast<const urdf::Sphere&>(geometry).radius};
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& size = dynamic_cast<const urdf::Box&>(geometry).dim;
+      return Box{0.5 * Vec3(size.x, size.y, size.z)};
+    }
+    default:
+      break;
+  }
+  const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
+  if (is_capsule) return Capsule{cylinder.radius, 0.5 * cylinder.length};
+  return Cylinder{cylinder.radius, 0.5 * cylinder.length};
+}
+
+}  // namespace
+
+Pose pose(const urdf::Pose& origin) {
+  const urdf::Rotation& r = origin.rotation;
+  return {Eigen::Quaterniond(r.w, r.x, r.y, r.z).toRotationMatrix(),
+          {origin.position.x, origin.position.y, origin.position.z}};
+}
+
+void add_shapes(const Document& document, const XMLElement& link, const urdf::Link& parsed,
+                const MeshFolders& folders, ModelBuilder& builder) {
+  const Owner owner{"link", parsed.name};
+  auto next = parsed.collision_array.begin();
+  for (auto c = link.FirstChildElement("collision"); c; c = c->NextSiblingElement("collision")) {
+    if (const XMLElement* mesh = mesh_of(*c)) {
+      const std::string file = attribute(*mesh, "filename");
+      builder.add_warning(document.at(*mesh) + owner.show() + " has a collision mesh, " +
+                          in_quotes(file) + ", which is not used: meshes are not supported (" +
+                          describe(find_mesh(file, folders.urdf, folders.packages)) + ")");
+    } else if (const XMLElement* usable = usable_shape(*c)) {
+      if (next == parsed.collision_array.end()) {
+        throw ModelError("urdfdom dropped a collision of link " + in_quotes(parsed.name), "link",
+                         parsed.name);
+      }
+      const urdf::Collision& collision = **next++;
+      builder.add_shape(parsed.name,
+                        shape(*collision.geometry, usable->Name() == std::string("capsule")),
+                        pose(collision.origin));
+    }
+  }
+}
+
+void warn_of_visuals(const Document& document, const MeshFolders& folders, ModelBuilder& builder) {
+  int missing = 0;
+  std::string first;
+  for (const XMLElement* link : document.all("link")) {
+    for (auto v = link->FirstChildElement("visual"); v; v = v->NextSiblingElement("visual")) {
+      const XMLElement* mesh = mesh_of(*v);
+      if (mesh == nullptr) continue;
+      const std::string file = attribute(*mesh, "filename");
+      const MeshPath path = find_mesh(file, folders.urdf, folders.packages);
+      if (!path.found.empty() || ++missing > 1) continue;
+      first = document.at(*mesh) + "link " + in_quotes(attribute(*link, "name")) +
+              " has a visual mesh, " + in_quotes(file) + ", which is " + describe(path);
+    }
+  }
+  if (missing > 1) first += "; so are " + std::to_string(missing - 1) + " others";
+  if (missing > 0) builder.add_warning(first);
+}
+
+}  // namespace saltus::reader

@@ -1,0 +1,152 @@
+#include "saltus/urdf/load_urdf.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "urdf/checks.hpp"
+#include "urdf/extension.hpp"
+#include "urdf/geometry.hpp"
+#include "urdf/parse.hpp"
+#include "urdf/rewrite.hpp"
+
+namespace saltus {
+namespace {
+
+using namespace reader;
+
+BodyInertia inertia(const urdf::Link& link) {
+  if (link.inertial == nullptr) return {};
+  const urdf::Inertial& i = *link.inertial;
+  const Pose X_LC = pose(i.origin);
+  Mat3 I_C;
+  I_C << i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz;
+  const Mat3 I_L = X_LC.R * I_C * X_LC.R.transpose();
+  return {i.mass, X_LC.p, 0.5 * (I_L + I_L.transpose())};
+}
+
+JointType joint_type(const std::string& type) {
+  if (is_spherical(type)) return JointType::spherical;
+  if (type == "revolute") return JointType::revolute;
+  if (type == "continuous") return JointType::continuous;
+  if (type == "prismatic") return JointType::prismatic;
+  if (type == "planar") return JointType::planar;
+  if (type == "floating") return JointType::floating;
+  return JointType::fixed;  // check_elements knows them all
+}
+
+double limit(double value) {
+  return std::abs(value) < no_limit ? value
+                                    : std::copysign(std::numeric_limits<double>::infinity(), value);
+}
+
+void set_limits(const urdf::Joint& joint, JointSpec& spec) {
+  if (joint.limits != nullptr) {
+    spec.velocity = limit(joint.limits->velocity);
+    spec.effort = limit(joint.limits->effort);
+    // only these two have a position that it could limit
+    if (spec.type == JointType::revolute || spec.type == JointType::prismatic) {
+      spec.lower = limit(joint.limits->lower);
+      spec.upper = limit(joint.limits->upper);
+    }
+  }
+  if (joint.dynamics != nullptr) {
+    spec.damping = joint.dynamics->damping;
+    spec.friction = joint.dynamics->friction;
+  }
+}
+
+JointSpec joint_spec(const urdf::Joint& joint, const std::string& type) {
+  JointSpec spec;
+  spec.name = joint.name;
+  spec.type = joint_type(type);
+  spec.parent = joint.parent_link_name;
+  spec.child = joint.child_link_name;
+  spec.X_PJ = pose(joint.parent_to_joint_origin_transform);
+  if (has_axis(type)) {
+    const Vec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
+    spec.axis = axis / axis.cwiseAbs().maxCoeff();  // else the square of 1e-200 would be zero
+  }
+  if (joint.mimic != nullptr) {
+    spec.mimic = Mimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
+  }
+  set_limits(joint, spec);
+  return spec;
+}
+
+std::string unused_name(const Document& document, const char* element, std::string name) {
+  while (document.find(element, name) != nullptr) name += "_";
+  return name;
+}
+
+/// Hangs the file's root on the world; JointType::fixed is the builder's own doing.
+void add_root_joint(const Document& document, JointType type, const std::string& world,
+                    const std::string& root, ModelBuilder& builder) {
+  JointSpec spec;
+  spec.name = unused_name(document, "joint", "root");
+  spec.type = type;
+  spec.parent = world;
+  spec.child = root;
+  spec.axis = Vec3::UnitZ();
+  builder.add_joint(spec);
+}
+
+void add_links_and_joints(const Document& document, const urdf::ModelInterface& parsed,
+                          const MeshFolders& folders, const std::string& fixed_link,
+                          ModelBuilder& builder) {
+  for (const XMLElement* e : document.all("link")) {
+    const std::string name = attribute(*e, "name");
+    const LinkSpec link{name, inertia(*parsed.getLink(name))};
+    if (name != fixed_link) {
+      builder.add_link(link);
+    } else {
+      check_inertia(link.inertia, name);  // the builder has this link already, without inertia
+    }
+  }
+  for (const XMLElement* e : document.all("joint")) {
+    const urdf::Joint& joint = *parsed.getJoint(attribute(*e, "name"));
+    builder.add_joint(joint_spec(joint, attribute(*e, "type")));
+  }
+  for (const XMLElement* e : document.all("link")) {
+    add_shapes(document, *e, *parsed.getLink(attribute(*e, "name")), folders, builder);
+  }
+}
+
+/// Runs what the floor below may refuse, and tells the place in the file if it does.
+void located(const Document& document, const std::function<void()>& add) {
+  try {
+    add();
+  } catch (const ModelError& error) {
+    throw document.located(error);
+  }
+}
+
+}  // namespace
+
+ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& options) {
+  const Source source = read_source(path_or_text);
+  const Document document(source);
+  Warnings warnings;
+  check_schema(document, warnings);
+  check_elements(document, warnings);
+  const std::string root = check_tree(document);
+  const urdf::ModelInterfaceSharedPtr parsed = parse(document);
+
+  const bool is_fixed = options.root_joint == JointType::fixed;
+  const std::string world = is_fixed ? root : unused_name(document, "link", "world");
+  const std::string name = attribute(document.robot(), "name");
+  ModelBuilder builder(name.empty() ? "model" : name, world);
+  builder.set_gravity(options.gravity).set_source(source.text);
+  for (const std::string& warning : warnings) builder.add_warning(warning);
+  const MeshFolders folders{source.folder, options.package_dirs};
+  located(document, [&] {
+    if (!is_fixed) add_root_joint(document, options.root_joint, world, root, builder);
+    add_links_and_joints(document, *parsed, folders, world, builder);
+  });
+  warn_of_visuals(document, folders, builder);
+  add_extension(document, builder);
+  located(document, [&] { builder.check(); });
+  return builder;
+}
+
+}  // namespace saltus

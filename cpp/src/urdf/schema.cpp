@@ -1,0 +1,128 @@
+#include "urdf/schema.hpp"
+
+namespace saltus::reader {
+namespace {
+
+constexpr bool required = true, positive = true, may_be_infinite = true;
+
+ElementRule origin() {
+  return {.name = "origin",
+          .occurs = Occurs::at_most_once,
+          .numbers = {{"xyz", 3}, {"rpy", 3}, {"quat_xyzw", 4}}};
+}
+
+ElementRule inertial() {
+  const ElementRule mass = {
+      .name = "mass", .occurs = Occurs::once, .numbers = {{"value", 1, required}}};
+  const ElementRule inertia = {.name = "inertia",
+                               .occurs = Occurs::once,
+                               .numbers = {{"ixx", 1, required},
+                                           {"ixy", 1, required},
+                                           {"ixz", 1, required},
+                                           {"iyy", 1, required},
+                                           {"iyz", 1, required},
+                                           {"izz", 1, required}}};
+  return {
+      .name = "inertial", .occurs = Occurs::at_most_once, .children = {origin(), mass, inertia}};
+}
+
+ElementRule geometry() {
+  const NumberRule radius = {"radius", 1, required, positive};
+  const NumberRule length = {"length", 1, required, positive};
+  return {
+      .name = "geometry",
+      .occurs = Occurs::at_most_once,
+      .children = {{.name = "sphere", .numbers = {radius}},
+                   {.name = "box", .numbers = {{"size", 3, required, positive}}},
+                   {.name = "cylinder", .numbers = {radius, length}},
+                   {.name = "capsule", .numbers = {radius, length}},
+                   {.name = "mesh", .numbers = {{"scale", 3}}, .texts = {{"filename", required}}}}};
+}
+
+ElementRule link() {
+  return {.name = "link",
+          .texts = {{"name", required}, {"type"}},
+          .children = {inertial(),
+                       {.name = "collision",
+                        .texts = {{"name"}, {"group"}},
+                        .children = {origin(), geometry()},
+                        .skipped = {"verbose", "material"}}},
+          .skipped = {"visual", "sensor", "contact", "gazebo", "collision_checking",
+                      "self_collision_checking"}};
+}
+
+ElementRule joint() {
+  const auto limit = [](const char* name) {
+    return NumberRule{name, 1, !required, !positive, may_be_infinite};
+  };
+  return {.name = "joint",
+          .texts = {{"name", required}, {"type", required}},
+          .children =
+              {origin(),
+               {.name = "parent", .occurs = Occurs::once, .texts = {{"link", required}}},
+               {.name = "child", .occurs = Occurs::once, .texts = {{"link", required}}},
+               {.name = "axis", .occurs = Occurs::at_most_once, .numbers = {{"xyz", 3, required}}},
+               {.name = "limit",
+                .occurs = Occurs::at_most_once,
+                .numbers = {limit("lower"), limit("upper"), limit("effort"), limit("velocity"),
+                            limit("acceleration"), limit("deceleration"), limit("jerk")}},
+               {.name = "dynamics",
+                .occurs = Occurs::at_most_once,
+                .numbers = {{"damping"}, {"friction"}}},
+               {.name = "mimic",
+                .occurs = Occurs::at_most_once,
+                .numbers = {{"multiplier"}, {"offset"}},
+                .texts = {{"joint", required}}}},
+          .skipped = {"safety_controller", "calibration", "hardwareInterface", "sensor"}};
+}
+
+ElementRule extension() {
+  return {.name = "saltus",
+          .children = {{.name = "half_space",
+                        .numbers = {{"normal", 3}, {"offset"}},
+                        .texts = {{"name"}},
+                        .strict = true},
+                       {.name = "capsule",
+                        .numbers = {{"radius", 1, required, positive},
+                                    {"length", 1, required, positive}},
+                        .texts = {{"link", required}},
+                        .children = {origin()},
+                        .strict = true},
+                       {.name = "exclude",
+                        .texts = {{"link1", required}, {"link2", required}},
+                        .strict = true}},
+          .strict = true};
+}
+
+}  // namespace
+
+const ElementRule* ElementRule::child(const std::string& child_name) const {
+  for (const ElementRule& rule : children) {
+    if (rule.name == child_name) return &rule;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> ElementRule::attribute_names() const {
+  std::vector<std::string> names;
+  for (const TextRule& text : texts) names.push_back(text.name);
+  for (const NumberRule& number : numbers) names.push_back(number.name);
+  return names;
+}
+
+std::vector<std::string> ElementRule::child_names() const {
+  std::vector<std::string> names;
+  for (const ElementRule& rule : children) names.push_back(rule.name);
+  return names;
+}
+
+const ElementRule& schema() {
+  static const ElementRule robot = {
+      .name = "robot",
+      .texts = {{"name"}, {"version"}},
+      .children = {link(), joint(), extension()},
+      .skipped = {"material", "gazebo", "transmission", "sensor", "ros2_control", "mujoco"}};
+  return robot;
+}
+
+}  // namespace saltus::reader

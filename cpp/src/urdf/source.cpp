@@ -1,0 +1,108 @@
+#include "urdf/source.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include "saltus/error.hpp"
+#include "saltus/model/model.hpp"
+
+namespace saltus::reader {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Real robots have 1e4 to 1e6 characters; a parsed document takes some ten times its text.
+constexpr std::size_t max_size = std::size_t{64} << 20;
+constexpr const char* white_space = " \t\r\n\v\f";
+constexpr const char* byte_order_mark = "\xEF\xBB\xBF";
+
+bool is_text(const std::string& argument) {
+  const std::size_t begin = argument.rfind(byte_order_mark, 0) == 0 ? 3 : 0;
+  const std::size_t first = argument.find_first_not_of(white_space, begin);
+  return first != std::string::npos && argument[first] == '<';
+}
+
+/// A path in a message; whoever passes text by mistake is not shown all of it.
+std::string show(const std::string& path) {
+  return "\"" + (path.size() <= 200 ? path : path.substr(0, 200) + "...") + "\"";
+}
+
+/// ": its URDF files are a, b", of the folder; "" where it has none.
+std::string urdf_files_in(const fs::path& folder, const std::string& whose) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == ".urdf") names.push_back(it->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names.empty() ? "" : whose + list_names(names);
+}
+
+[[noreturn]] void fail_missing(const std::string& path) {
+  if (path.find_first_not_of(white_space) == std::string::npos) {
+    throw ModelError("an empty string is neither the path of a URDF file nor URDF text");
+  }
+  std::error_code error;
+  const fs::path tried = fs::absolute(path, error).lexically_normal();
+  const fs::path folder = tried.parent_path();
+  std::string what = "no file " + show(path);
+  if (tried.is_relative() || tried.string() != path) what += "; tried " + show(tried.string());
+  if (path.find('\n') != std::string::npos) {
+    what += "; URDF text must begin with '<'";
+  } else if (!fs::is_directory(folder, error)) {
+    what += "; the folder " + show(folder.string()) + " does not exist";
+  } else {
+    what += urdf_files_in(folder, "; URDF files there are ");
+  }
+  throw ModelError(what);
+}
+
+/// Not by the file's size: what is no regular file (a pipe) has none.
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw ModelError("file " + show(path) + " cannot be opened for reading");
+  std::string text;
+  std::vector<char> block(1 << 16);
+  while (file && text.size() <= max_size) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) throw ModelError("file " + show(path) + " cannot be read");
+  return text;
+}
+
+Source read_path(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail_missing(path);
+  if (fs::is_directory(status)) {
+    throw ModelError(show(path) + " is a directory, not a URDF file" +
+                     urdf_files_in(path, "; URDF files there are "));
+  }
+  return {path, fs::absolute(path, error).lexically_normal().parent_path(), read_file(path)};
+}
+
+}  // namespace
+
+Source read_source(const std::string& path_or_text) {
+  std::error_code error;
+  Source source = is_text(path_or_text) ? Source{"URDF text", fs::current_path(error), path_or_text}
+                                        : read_path(path_or_text);
+  if (source.text.find_first_not_of(white_space) == std::string::npos) {
+    throw ModelError(source.label + ": the file is empty");
+  }
+  if (source.text.size() > max_size) {
+    throw ModelError(source.label + ": more than " + std::to_string(max_size >> 20) +
+                     " MiB, the most that is read as URDF");
+  }
+  if (source.text.find('\0') != std::string::npos) {
+    throw ModelError(source.label +
+                     ": not a text file (it contains zero bytes); URDF is XML in "
+                     "UTF-8 or ASCII");
+  }
+  return source;
+}
+
+}  // namespace saltus::reader

@@ -1,0 +1,19 @@
+// Where the text comes from: a file or the argument itself.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace saltus::reader {
+
+struct Source {
+  std::string label;             ///< begins every message: the path as given, or "URDF text"
+  std::filesystem::path folder;  ///< absolute; relative meshes are looked up here
+  std::string text;
+};
+
+/// @throws ModelError on a path that cannot be read, with what was tried; on text that is empty,
+/// too long or binary.
+Source read_source(const std::string& path_or_text);
+
+}  // namespace saltus::reader
