@@ -1,0 +1,139 @@
+// Collision floor: shapes, and the gap between two of them.
+#include "bindings.hpp"
+#include "saltus/collision/contact.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+constexpr auto gap_class_doc = R"(The gap between two shapes a and b.
+
+`p_WA - p_WB == phi * n_W` and `|n_W| == 1`; `n_W` points from b to a; `phi < 0` is penetration.
+)";
+
+constexpr auto gap_doc = R"(Signed distance, normal, witness points and curvature of two shapes.
+
+Parameters
+----------
+a, b : Sphere, Capsule, Box, Cylinder or HalfSpace
+X_WA, X_WB : Pose
+    Where they are.
+
+Returns
+-------
+Gap
+
+Raises
+------
+ModelError
+    Where these two kinds of shape have no gap function; see `gap_table`.
+)";
+
+constexpr auto gap_table_doc = R"(The pairs of shapes that have a gap function, by name.
+
+Returns
+-------
+list of (str, str)
+    Generated from the dispatch; the order within a pair does not matter.
+)";
+
+constexpr auto placed_shape_doc = R"(A shape of a model and the joint frame that carries it.)";
+
+constexpr auto pair_doc = R"(Two shapes of a model whose gap is watched.)";
+
+std::string show(double x) { return py::repr(py::float_(x)).cast<std::string>(); }
+
+std::string show(const Shape& shape) {
+  struct Show {
+    std::string operator()(const Sphere& s) const { return "Sphere(" + show(s.radius) + ")"; }
+    std::string operator()(const Capsule& c) const {
+      return "Capsule(" + show(c.radius) + ", " + show(c.half_length) + ")";
+    }
+    std::string operator()(const Box& b) const {
+      return "Box((" + show(b.half[0]) + ", " + show(b.half[1]) + ", " + show(b.half[2]) + "))";
+    }
+    std::string operator()(const Cylinder& c) const {
+      return "Cylinder(" + show(c.radius) + ", " + show(c.half_length) + ")";
+    }
+    std::string operator()(const HalfSpace&) const { return "HalfSpace()"; }
+    static std::string show(double x) { return bindings::show(x); }
+  };
+  return std::visit(Show{}, shape);
+}
+
+void bind_shapes(py::module_& m) {
+  py::class_<Sphere>(m, "Sphere", "A ball about its frame's origin.")
+      .def(py::init([](double radius) { return Sphere{radius}; }), py::arg("radius"))
+      .def_readonly("radius", &Sphere::radius, "[m]")
+      .def("__repr__", [](const Sphere& s) { return show(s); });
+  py::class_<Capsule>(m, "Capsule",
+                      "All points within `radius` of the segment |z| <= `half_length`.")
+      .def(py::init([](double radius, double half_length) { return Capsule{radius, half_length}; }),
+           py::arg("radius"), py::arg("half_length"))
+      .def_readonly("radius", &Capsule::radius, "[m]")
+      .def_readonly("half_length", &Capsule::half_length, "[m] of the segment, without the caps")
+      .def("__repr__", [](const Capsule& c) { return show(c); });
+  py::class_<Box>(m, "Box", "|x| <= half[0], |y| <= half[1], |z| <= half[2].")
+      .def(py::init([](const Vec3& half) { return Box{half}; }), py::arg("half"))
+      .def_readonly("half", &Box::half, "[m] half-extents, shape (3,)")
+      .def("__repr__", [](const Box& b) { return show(b); });
+  py::class_<Cylinder>(m, "Cylinder", "Axis z, |z| <= `half_length`.")
+      .def(
+          py::init([](double radius, double half_length) { return Cylinder{radius, half_length}; }),
+          py::arg("radius"), py::arg("half_length"))
+      .def_readonly("radius", &Cylinder::radius, "[m]")
+      .def_readonly("half_length", &Cylinder::half_length, "[m]")
+      .def("__repr__", [](const Cylinder& c) { return show(c); });
+  py::class_<HalfSpace>(m, "HalfSpace",
+                        "The solid z <= 0 of its frame; only the root link may carry one.")
+      .def(py::init<>())
+      .def("__repr__", [](const HalfSpace& h) { return show(h); });
+}
+
+Gap checked_gap(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
+  if (!has_gap(a, b)) {
+    throw ModelError("no gap function between a " + shape_name(a) + " and a " + shape_name(b) +
+                     "; gap_table() lists those there are");
+  }
+  return gap(a, X_WA, b, X_WB);
+}
+
+void bind_gap(py::module_& m) {
+  py::class_<Gap>(m, "Gap", gap_class_doc)
+      .def_readonly("phi", &Gap::phi, "[m] signed distance")
+      .def_readonly("n_W", &Gap::n_W, "unit normal from b to a, shape (3,)")
+      .def_readonly("p_WA", &Gap::p_WA, "[m] witness on a's surface, shape (3,)")
+      .def_readonly("p_WB", &Gap::p_WB, "[m] witness on b's surface, shape (3,)")
+      .def_readonly("F_W", &Gap::F_W,
+                    "[1/m] second partials of phi for translations of a against b, shape (3, 3)")
+      .def("__repr__", [](const Gap& g) { return "Gap(phi=" + show(g.phi) + ")"; });
+  m.def("gap", &checked_gap, gap_doc, py::arg("a"), py::arg("X_WA"), py::arg("b"), py::arg("X_WB"));
+  m.def("has_gap", &has_gap, "True where `gap` knows the two kinds of shape, in either order.",
+        py::arg("a"), py::arg("b"));
+  m.def("gap_table", &gap_table, gap_table_doc);
+  m.def("shape_name", &shape_name,
+        "\"sphere\", \"capsule\", \"box\", \"cylinder\" or \"half_space\".", py::arg("shape"));
+}
+
+}  // namespace
+
+void bind_collision(py::module_& m) {
+  bind_shapes(m);
+  bind_gap(m);
+  py::class_<PlacedShape>(m, "PlacedShape", placed_shape_doc)
+      .def_readonly("name", &PlacedShape::name,
+                    "the link's name, \"#k\" added where a link has several")
+      .def_readonly("shape", &PlacedShape::shape, "Sphere, Capsule, Box, Cylinder or HalfSpace")
+      .def_readonly("link", &PlacedShape::link, "index of its link in the model's `links`")
+      .def("__repr__", [](const PlacedShape& s) {
+        return "PlacedShape('" + s.name + "', " + show(s.shape) + ")";
+      });
+  py::class_<Pair>(m, "Pair", pair_doc)
+      .def_readonly("a", &Pair::a, "index in the model's `shapes`")
+      .def_readonly("b", &Pair::b, "index in the model's `shapes`")
+      .def_readonly("touch", &Pair::touch, "[m] below this |phi| the shapes touch")
+      .def("__repr__", [](const Pair& p) {
+        return "Pair(" + std::to_string(p.a) + ", " + std::to_string(p.b) + ")";
+      });
+}
+
+}  // namespace saltus::bindings

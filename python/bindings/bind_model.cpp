@@ -1,0 +1,178 @@
+// Model floor: the frozen model and its states.
+#include <pybind11/native_enum.h>
+
+#include "bindings.hpp"
+#include "model_docs.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+std::string show_state(const State& s) {
+  const auto list = [](const VecX& x) {
+    return py::str(py::cast(x).attr("tolist")()).cast<std::string>();
+  };
+  return "State(t=" + py::repr(py::float_(s.t)).cast<std::string>() + ", q=" + list(s.q) +
+         ", p=" + list(s.p) + ")";
+}
+
+void bind_state(py::module_& m) {
+  py::class_<State>(m, "State", docs::state)
+      .def(py::init([](double t, const VecX& q, const VecX& p) { return State{t, q, p}; }),
+           py::arg("t"), py::arg("q"), py::arg("p"))
+      .def_readonly("t", &State::t, "[s]")
+      .def_readonly("q", &State::q, "[rad | m] coordinates, shape (n,)")
+      .def_readonly("p", &State::p, "[kg m^2/s | kg m/s] conjugate momenta, shape (n,)")
+      .def(
+          "__eq__", [](const State& a, const State& b) { return a == b; }, py::is_operator())
+      .def("__copy__", [](const State& s) { return s; })
+      .def(
+          "__deepcopy__", [](const State& s, const py::dict&) { return s; }, py::arg("memo"))
+      .def("__repr__", &show_state)
+      .def(py::pickle([](const State& s) { return py::make_tuple(s.t, s.q, s.p); },
+                      [](const py::tuple& t) {
+                        return State{t[0].cast<double>(), t[1].cast<VecX>(), t[2].cast<VecX>()};
+                      }));
+}
+
+void bind_parts(py::module_& m) {
+  py::native_enum<JointType>(m, "JointType", "enum.Enum", docs::joint_type)
+      .value("fixed", JointType::fixed)
+      .value("revolute", JointType::revolute)
+      .value("continuous", JointType::continuous)
+      .value("prismatic", JointType::prismatic)
+      .value("helical", JointType::helical)
+      .value("planar", JointType::planar)
+      .value("floating", JointType::floating)
+      .value("spherical", JointType::spherical)
+      .finalize();
+  py::class_<Link>(m, "Link", "A rigid link of a model.")
+      .def_readonly("name", &Link::name)
+      .def_readonly("mass", &Link::mass, "[kg] its own, without links that are fixed to it")
+      .def("__repr__", [](const Link& l) { return "Link('" + l.name + "')"; });
+  py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
+      .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
+      .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
+      .def_readonly("angular", &Coordinate::angular, "True for [rad], False for [m]")
+      .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
+      .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
+      .def_readonly("velocity", &Coordinate::velocity, "[rad/s | m/s] limit, inf where none")
+      .def_readonly("effort", &Coordinate::effort, "[N m | N] limit, inf where there is none")
+      .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
+      .def_readonly("friction", &Coordinate::friction, "[N m | N]")
+      .def("__repr__", [](const Coordinate& c) { return "Coordinate('" + c.name + "')"; });
+  py::class_<JointInfo>(m, "JointInfo", "A joint of a model, as its author named it.")
+      .def_readonly("name", &JointInfo::name)
+      .def_readonly("type", &JointInfo::type)
+      .def_readonly("parent", &JointInfo::parent, "name of the parent link")
+      .def_readonly("child", &JointInfo::child, "name of the child link")
+      .def_readonly("coordinates", &JointInfo::coordinates, "indices of those that move it")
+      .def("__repr__", [](const JointInfo& j) { return "JointInfo('" + j.name + "')"; });
+}
+
+void bind_gaps(py::module_& m) {
+  py::class_<Gaps>(m, "Gaps", docs::gaps)
+      .def_readonly("names", &Gaps::names, "\"a ~ b\", m of them")
+      .def_readonly("phi", &Gaps::phi, "[m] shape (m,)")
+      .def_readonly("phi_q", &Gaps::phi_q, "[m/rad | 1] shape (m, n)")
+      .def_readonly("phi_qq", &Gaps::phi_qq, "m arrays of shape (n, n)")
+      .def_readonly("normal", &Gaps::normal, "unit normals from b to a, shape (m, 3)")
+      .def_readonly("p_WA", &Gaps::p_WA, "[m] witnesses on a, shape (m, 3)")
+      .def_readonly("p_WB", &Gaps::p_WB, "[m] witnesses on b, shape (m, 3)")
+      .def("__len__", [](const Gaps& g) { return g.phi.size(); })
+      .def("__repr__",
+           [](const Gaps& g) { return "Gaps(" + std::to_string(g.phi.size()) + " pairs)"; });
+}
+
+std::vector<std::string> pair_names(const Model& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < static_cast<int>(model->pairs.size()); ++i) {
+    names.push_back(model.pair_name(i));
+  }
+  return names;
+}
+
+void bind_lists(py::class_<Model>& c) {
+  c.def_property_readonly("name", [](const Model& m) { return m->name; })
+      .def_property_readonly("n_q", &Model::n_q, "number of coordinates, n elsewhere")
+      .def_property_readonly(
+          "gravity", [](const Model& m) { return m->mass.gravity; }, "[m/s^2] shape (3,)")
+      .def_property_readonly(
+          "source", [](const Model& m) { return m->source; },
+          "the URDF text it was read from, \"\" for a model built in code")
+      .def_property_readonly(
+          "warnings", [](const Model& m) { return m->warnings; },
+          "what was understood but is not used")
+      .def_property_readonly("links", [](const Model& m) -> const auto& { return m->links; })
+      .def_property_readonly("joints", [](const Model& m) -> const auto& { return m->joints; })
+      .def_property_readonly("coordinates",
+                             [](const Model& m) -> const auto& { return m->coordinates; })
+      .def_property_readonly("shapes", [](const Model& m) -> const auto& { return m->shapes; })
+      .def_property_readonly("pairs", [](const Model& m) -> const auto& { return m->pairs; })
+      .def_property_readonly("link_names", [](const Model& m) { return names_of(m->links); })
+      .def_property_readonly("joint_names", [](const Model& m) { return names_of(m->joints); })
+      .def_property_readonly("coordinate_names",
+                             [](const Model& m) { return names_of(m->coordinates); })
+      .def_property_readonly("pair_names", &pair_names, "\"a ~ b\" of every pair")
+      .def("coordinate", &Model::coordinate, py::arg("name"),
+           "Index of a coordinate; ModelError with the names there are.")
+      .def("link", &Model::link, py::arg("name"),
+           "Index of a link; ModelError with the names there are.")
+      .def("without_collisions", &Model::without_collisions,
+           "A copy without any pair: bodies pass through each other.")
+      .def("__repr__", [](const Model& m) {
+        return "Model('" + m->name + "', " + std::to_string(m.n_q()) + " coordinates, " +
+               std::to_string(m->shapes.size()) + " shapes, " + std::to_string(m->pairs.size()) +
+               " pairs)";
+      });
+}
+
+}  // namespace
+
+void bind_model(py::module_& m) {
+  bind_state(m);
+  bind_parts(m);
+  bind_gaps(m);
+  py::class_<Model> c(m, "Model", docs::model);
+  bind_lists(c);
+  c.def(
+       "state",
+       [](const Model& model, const Coordinates& q, const Coordinates& v, double t) {
+         return model.state(to_vector(q, model, "q"), to_vector(v, model, "v"), t);
+       },
+       docs::model_state, py::arg("q") = py::none(), py::arg("v") = py::none(), py::arg("t") = 0.0)
+      .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))
+      .def(
+          "lagrangian",
+          [](const Model& model, const Coordinates& q, const Coordinates& v) {
+            return model.lagrangian(to_vector(q, model, "q"), to_vector(v, model, "v"));
+          },
+          docs::model_lagrangian, py::arg("q"), py::arg("v"))
+      .def(
+          "mass_matrix",
+          [](const Model& model, const Coordinates& q) {
+            return model.mass_matrix(to_vector(q, model, "q"));
+          },
+          docs::model_mass_matrix, py::arg("q"))
+      .def(
+          "gaps",
+          [](const Model& model, const Coordinates& q) {
+            return model.gaps(to_vector(q, model, "q"));
+          },
+          docs::model_gaps, py::arg("q"))
+      .def("kinetic_energy", &Model::kinetic_energy, "[J] at this state.", py::arg("state"))
+      .def(
+          "potential_energy",
+          [](const Model& model, const Coordinates& q) {
+            return model.potential_energy(to_vector(q, model, "q"));
+          },
+          "[J] of gravity, zero at the world's origin.", py::arg("q"))
+      .def(
+          "pose",
+          [](const Model& model, const Coordinates& q, const py::object& link) {
+            return model.X_WL(to_vector(q, model, "q"),
+                              to_index(link, names_of(model->links), "link"));
+          },
+          docs::model_pose, py::arg("q"), py::arg("link"));
+}
+
+}  // namespace saltus::bindings

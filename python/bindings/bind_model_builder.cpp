@@ -1,0 +1,68 @@
+// Model floor: describing a model link by link.
+#include "bindings.hpp"
+#include "model_builder_docs.hpp"
+#include "saltus/model/model_builder.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr auto self = py::return_value_policy::reference_internal;
+
+ModelBuilder& add_joint(ModelBuilder& builder, const std::string& name, JointType type,
+                        const std::string& parent, const std::string& child, const Pose& X_PJ,
+                        const Vec3& axis, double pitch, const std::optional<Mimic>& mimic,
+                        double lower, double upper, double velocity, double effort, double damping,
+                        double friction) {
+  return builder.add_joint({name, type, parent, child, X_PJ, axis, pitch, mimic, lower, upper,
+                            velocity, effort, damping, friction});
+}
+
+void bind_add_joint(py::class_<ModelBuilder>& c) {
+  c.def("add_joint", &add_joint, self, docs::add_joint, py::arg("name"), py::arg("type"),
+        py::kw_only(), py::arg("parent"), py::arg("child"), py::arg_v("X_PJ", Pose{}, "Pose()"),
+        py::arg_v("axis", Vec3(Vec3::UnitX()), "(1, 0, 0)"), py::arg("pitch") = 0.0,
+        py::arg_v("mimic", std::optional<Mimic>{}, "None"),
+        py::arg_v("lower", -infinity, "-math.inf"), py::arg_v("upper", infinity, "math.inf"),
+        py::arg_v("velocity", infinity, "math.inf"), py::arg_v("effort", infinity, "math.inf"),
+        py::arg("damping") = 0.0, py::arg("friction") = 0.0);
+}
+
+}  // namespace
+
+void bind_model_builder(py::module_& m) {
+  py::class_<Mimic>(m, "Mimic", docs::mimic)
+      .def(py::init([](const std::string& joint, double multiplier, double offset) {
+             return Mimic{joint, multiplier, offset};
+           }),
+           py::arg("joint"), py::arg("multiplier") = 1.0, py::arg("offset") = 0.0)
+      .def_readonly("joint", &Mimic::joint)
+      .def_readonly("multiplier", &Mimic::multiplier)
+      .def_readonly("offset", &Mimic::offset, "[rad | m]")
+      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; });
+
+  py::class_<ModelBuilder> c(m, "ModelBuilder", docs::model_builder);
+  c.def(py::init<std::string, std::string>(), py::arg("name") = "model", py::arg("root") = "world");
+  bind_add_joint(c);
+  c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
+      .def(
+          "add_link",
+          [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia)
+              -> ModelBuilder& { return builder.add_link({name, inertia}); },
+          self, docs::add_link, py::arg("name"),
+          py::arg_v("inertia", BodyInertia{}, "BodyInertia()"))
+      .def("add_shape", &ModelBuilder::add_shape, self, docs::add_shape, py::arg("link"),
+           py::arg("shape"), py::arg_v("X_LG", Pose{}, "Pose()"))
+      .def("add_half_space", &ModelBuilder::add_half_space, self, docs::add_half_space,
+           py::arg("name"), py::arg("normal"), py::arg("offset") = 0.0)
+      .def("add_exclusion", &ModelBuilder::add_exclusion, self, docs::add_exclusion,
+           py::arg("link_a"), py::arg("link_b"))
+      .def("add_warning", &ModelBuilder::add_warning, self,
+           "Adds to the model's `warnings`; returns the builder.", py::arg("text"))
+      .def_property_readonly("warnings", &ModelBuilder::warnings)
+      .def("check", &ModelBuilder::check, "The checks of `build` alone; raises ModelError.")
+      .def("build", &ModelBuilder::build, docs::build)
+      .def("__repr__", [](const ModelBuilder&) { return "ModelBuilder(...)"; });
+}
+
+}  // namespace saltus::bindings

@@ -1,0 +1,56 @@
+// URDF floor.
+#include "bindings.hpp"
+#include "saltus/urdf/load_urdf.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+constexpr auto read_urdf_doc = R"(Reads URDF into a ModelBuilder, to add to it before `build`.
+
+Parameters
+----------
+path_or_text : str or os.PathLike
+    A file, or URDF text where it begins with "<".
+gravity : array_like, shape (3,)
+    [m/s^2]
+package_dirs : sequence of str or os.PathLike
+    Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
+root_joint : JointType
+    How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
+
+Returns
+-------
+ModelBuilder
+    Its `warnings` name what was understood but is not used.
+
+Raises
+------
+ModelError
+    With file and line, `element` and `name` of the culprit.
+)";
+
+std::string to_path(const py::object& path) {
+  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+}
+
+ModelBuilder read_urdf(const py::object& path_or_text, const Vec3& gravity,
+                       const py::object& package_dirs, JointType root_joint) {
+  UrdfOptions options{gravity, {}, root_joint};
+  for (const py::handle path : package_dirs) {
+    options.package_dirs.push_back(to_path(py::reinterpret_borrow<py::object>(path)));
+  }
+  const std::string text = to_path(path_or_text);
+  const py::gil_scoped_release release;
+  return load_urdf(text, options);
+}
+
+}  // namespace
+
+void bind_urdf(py::module_& m) {
+  m.def("read_urdf", &read_urdf, read_urdf_doc, py::arg("path_or_text"), py::kw_only(),
+        py::arg_v("gravity", UrdfOptions{}.gravity, "(0, 0, -9.81)"),
+        py::arg_v("package_dirs", py::tuple(), "()"),
+        py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"));
+}
+
+}  // namespace saltus::bindings

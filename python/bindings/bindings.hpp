@@ -1,0 +1,77 @@
+// What the files of the bindings share. A binding reshapes data and nothing else.
+//
+// One bind_<floor>.cpp a floor; core.cpp calls them from the ground up, because a type must be
+// known to pybind11 before a signature that names it (else help() and the stubs show its C++ name).
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <vector>
+
+#include "saltus/model/model.hpp"
+#include "saltus/variational/report.hpp"
+
+namespace saltus::bindings {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& m);
+void bind_spatial(py::module_& m);
+void bind_lagrangian(py::module_& m);
+void bind_collision(py::module_& m);
+void bind_model(py::module_& m);
+void bind_model_builder(py::module_& m);
+void bind_motion(py::module_& m);
+void bind_urdf(py::module_& m);
+void bind_variational(py::module_& m);
+void bind_stepper(py::module_& m);
+void bind_rollout(py::module_& m);
+
+/// What a user gives for q or v: names and values (coordinates not named are 0), an array (n_q), or
+/// None for zeros.
+struct Coordinates {
+  py::object value;
+};
+
+/// The array (n_q) that is meant; `what` names it in messages.
+/// @throws ModelError on a name that the model has not, and on what are no numbers or not (n_q).
+VecX to_vector(const Coordinates& x, const Model& model, const char* what);
+
+/// Index of a link or shape that is given by name or by index.
+int to_index(const py::object& item, const std::vector<std::string>& names, const char* what);
+
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+/// A read-only array over `items`, which `owner` keeps alive: no copy.
+template <class Item>
+py::array_t<Item> view(const std::vector<Item>& items, const py::handle& owner) {
+  py::array_t<Item> array(static_cast<py::ssize_t>(items.size()), items.data(), owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+}  // namespace saltus::bindings
+
+namespace pybind11::detail {
+
+/// Takes any object; to_vector says what is wrong with it in better words than an overload error.
+template <>
+struct type_caster<saltus::bindings::Coordinates> {
+  PYBIND11_TYPE_CASTER(
+      saltus::bindings::Coordinates,
+      const_name("collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,19 @@
+// The extension module saltus._core.
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, m) {
+  using namespace saltus::bindings;
+  m.doc() = "Compiled part of saltus; everything public is in the package itself.";
+  m.attr("__version__") = SALTUS_VERSION;
+  bind_errors(m);
+  bind_spatial(m);
+  bind_lagrangian(m);
+  bind_collision(m);
+  bind_model(m);
+  bind_model_builder(m);
+  bind_motion(m);
+  bind_urdf(m);
+  bind_variational(m);
+  bind_stepper(m);
+  bind_rollout(m);
+}

@@ -1,0 +1,132 @@
+// Docstrings of ModelBuilder.
+#pragma once
+
+namespace saltus::bindings::docs {
+
+constexpr auto mimic =
+    R"(This joint's displacement is `multiplier * (displacement of joint) + offset`.
+
+Parameters
+----------
+joint : str
+    Name of the joint that is followed; both have one coordinate.
+multiplier : float
+offset : float
+    [rad | m]
+)";
+
+constexpr auto model_builder = R"(Describes a model link by link; `build` checks and freezes it.
+
+All methods return the builder, so that calls can be chained. Local mistakes raise ModelError at
+once, those that need the whole (unknown parents, cycles, joints that move no mass) in `build`.
+
+Parameters
+----------
+name : str
+    Name of the model.
+root : str
+    Name of the link that is fixed to the world; its frame is the world frame.
+)";
+
+constexpr auto set_gravity = R"(Sets gravity; it is (0, 0, -9.81) otherwise.
+
+Parameters
+----------
+gravity : array_like, shape (3,)
+    [m/s^2]
+)";
+
+constexpr auto add_link = R"(Adds a link.
+
+Parameters
+----------
+name : str
+inertia : BodyInertia
+    In the link's frame; none where the link has no mass.
+
+Raises
+------
+ModelError
+    On a name that is taken and on an inertia that no body can have.
+)";
+
+constexpr auto add_joint = R"(Adds a joint between two links.
+
+Parameters
+----------
+name : str
+type : JointType
+parent, child : str
+    Links; they may be added later.
+X_PJ : Pose
+    The joint's frame, which is the child's, in the parent link's frame at displacement 0.
+axis : array_like, shape (3,)
+    In the joint's frame, of any length but 0.
+pitch : float
+    [m/rad] helical joints only.
+mimic : Mimic, optional
+    The joint that this one follows.
+lower, upper : float
+    [rad | m] limits; kept for the user, not applied.
+velocity, effort : float
+    [rad/s | m/s], [N m | N] limits; kept for the user, not applied.
+damping, friction : float
+    [N m s/rad | N s/m], [N m | N]; kept for the user, not applied.
+
+Raises
+------
+ModelError
+    On a name that is taken, a zero axis, limits in the wrong order, and numbers that are none.
+)";
+
+constexpr auto add_shape = R"(Adds a shape that can touch others.
+
+It is named after its link, with "#2" added for the link's second, and so on.
+
+Parameters
+----------
+link : str
+shape : Sphere, Capsule, Box, Cylinder or HalfSpace
+X_LG : Pose
+    The shape's frame in the link's frame.
+
+Raises
+------
+ModelError
+    On sizes that are not finite and positive, and on a half-space that is not the root link's.
+)";
+
+constexpr auto add_half_space =
+    R"(Adds the solid below the plane normal.x = offset, fixed to the world.
+
+Parameters
+----------
+name : str
+    As in names of pairs.
+normal : array_like, shape (3,)
+    Out of the solid, of any length but 0.
+offset : float
+    [m]
+)";
+
+constexpr auto add_exclusion =
+    R"(Lets two links pass through each other: no gap is watched between them.
+
+Parameters
+----------
+link_a, link_b : str
+)";
+
+constexpr auto build = R"(Checks the whole and freezes it.
+
+Returns
+-------
+Model
+
+Raises
+------
+ModelError
+    With `element` and `name` of the culprit.
+)";
+
+}  // namespace saltus::bindings::docs
