@@ -113,6 +113,7 @@ std::vector<std::string> ElementRule::attribute_names() const {
 std::vector<std::string> ElementRule::child_names() const {
   std::vector<std::string> names;
   for (const ElementRule& rule : children) names.push_back(rule.name);
+  names.insert(names.end(), skipped.begin(), skipped.end());
   return names;
 }
 

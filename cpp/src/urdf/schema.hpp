@@ -33,7 +33,7 @@ struct ElementRule {
 
   const ElementRule* child(const std::string& child_name) const;
   std::vector<std::string> attribute_names() const;
-  std::vector<std::string> child_names() const;
+  std::vector<std::string> child_names() const;  ///< the skipped ones last
 };
 
 /// The rules of `<robot>`.
