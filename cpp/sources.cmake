@@ -42,6 +42,19 @@ set(SALTUS_SOURCES
   cpp/src/rollout/recorder.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
+  cpp/src/urdf/document.cpp
+  cpp/src/urdf/element_checks.cpp
+  cpp/src/urdf/extension.cpp
+  cpp/src/urdf/geometry.cpp
+  cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/mesh_path.cpp
+  cpp/src/urdf/numbers.cpp
+  cpp/src/urdf/parse.cpp
+  cpp/src/urdf/rewrite.cpp
+  cpp/src/urdf/schema.cpp
+  cpp/src/urdf/schema_checks.cpp
+  cpp/src/urdf/source.cpp
+  cpp/src/urdf/tree_checks.cpp
 )
 
 set(SALTUS_BINDING_SOURCES
