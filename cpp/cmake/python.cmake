@@ -7,6 +7,10 @@ find_package(pybind11 3.0 CONFIG REQUIRED)
 # NO_EXTRAS: link-time optimisation costs compile time and gains nothing, the library being a shared one.
 pybind11_add_module(_core NO_EXTRAS ${SALTUS_BINDING_SOURCES})
 target_link_libraries(_core PRIVATE saltus::saltus)
+target_precompile_headers(_core PRIVATE
+  <pybind11/eigen.h> <pybind11/functional.h> <pybind11/pybind11.h> <pybind11/stl.h>)
+# Bindings only reshape data: -O1 compiles them in two thirds of the time. It stands after the configuration's -O3.
+target_compile_options(_core PRIVATE $<$<CONFIG:Release>:-O1>)
 target_compile_definitions(_core PRIVATE SALTUS_VERSION="${PROJECT_VERSION}")
 saltus_warnings(_core)
 set_target_properties(_core PROPERTIES INSTALL_RPATH "$ORIGIN/lib")
