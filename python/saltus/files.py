@@ -1,0 +1,168 @@
+"""Trajectories in HDF5 files that are complete in themselves."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saltus._core import (
+    ImpactLaw,
+    JointType,
+    Model,
+    ModelError,
+    StepOptions,
+    __version__,
+    read_urdf,
+)
+from saltus.trajectory import IMPACT, IMPULSE, Trajectory
+
+if TYPE_CHECKING:
+    import h5py
+
+FORMAT = "saltus trajectory"
+VERSION = 1
+ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
+OPTIONS = ("h", "collisions", "max_iterations", "max_impacts", "max_impulses", "rest")
+OPTIONS += ("simultaneous",)
+NUMBERS = ("iterations", "residual", "complete", "energy_error")
+
+
+def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
+    """Write a trajectory; see `Trajectory.save`."""
+    import h5py
+
+    path = Path(path)
+    # Under another name first: a failure leaves no half file, and an older one stays whole.
+    part = path.with_name(path.name + ".part")
+    try:
+        with h5py.File(part, "w") as file:
+            _write(run, file)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Trajectory:
+    """Read a trajectory that `Trajectory.save` wrote; all numbers are the same to the last bit.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+    model : Model, optional
+        The model of the run, for files that do not hold it because it was built in code.
+
+    Returns
+    -------
+    Trajectory
+        Its `model` is None where the file holds none and none is given.
+
+    Raises
+    ------
+    ModelError
+        On a file that holds no trajectory, and on a model that is not that of the run.
+    """
+    import h5py
+
+    path = Path(path)
+    if not path.exists():
+        raise ModelError(f"{path}: there is no such file")
+    try:
+        with h5py.File(path, "r") as file:
+            return _read(file, path, model)
+    except (OSError, KeyError) as error:
+        raise ModelError(f"{path} is no trajectory that saltus can read: {error}") from None
+
+
+def _write(run: Trajectory, file: h5py.File) -> None:
+    import h5py
+
+    text = h5py.string_dtype()
+    file.attrs.update(format=FORMAT, version=VERSION, saltus_version=__version__)
+    for name in OPTIONS:
+        file.attrs[name] = getattr(run.options, name)
+    file.attrs["law"] = ImpactLaw(run.options.law).name
+    for name in NUMBERS:
+        file.attrs[name] = getattr(run, name)
+    for name in ARRAYS:
+        file[name] = getattr(run, name)
+    file["impulses"] = run.impulses
+    # The law by name, so that other programs can read it.
+    law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
+    fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
+    file["impacts"] = run.impacts.astype(np.dtype(fields))
+    for name in ("coordinate_names", "pair_names"):
+        file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
+    if run.model is None or not run.model.source:
+        file.attrs["model"] = "not in this file: it was built in code"
+        return
+    file.attrs["model"] = "URDF text in urdf"
+    file.attrs["gravity"] = run.model.gravity
+    file.attrs["root_joint"] = _root_joint(run.model).name
+    file.create_dataset("urdf", data=run.model.source, dtype=text)
+
+
+def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
+    if file.attrs.get("format") != FORMAT:
+        raise ModelError(f"{path} holds no trajectory of saltus")
+    if file.attrs["version"] > VERSION:
+        raise ModelError(
+            f"{path} has format version {file.attrs['version']}; this saltus {__version__} reads "
+            f"up to {VERSION}"
+        )
+    arrays: dict[str, Any] = {name: file[name][()] for name in ARRAYS}
+    arrays["impulses"] = file["impulses"][()].astype(IMPULSE)
+    arrays["impacts"] = file["impacts"][()].astype(IMPACT)
+    for array in arrays.values():
+        array.flags.writeable = False
+    numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
+    options = {name: file.attrs[name].item() for name in OPTIONS}
+    coordinates = tuple(file["coordinate_names"].asstr()[()])
+    pairs = tuple(file["pair_names"].asstr()[()])
+    if model is None and "urdf" in file:
+        model = read_urdf(
+            file["urdf"].asstr()[()],
+            gravity=file.attrs["gravity"],
+            root_joint=JointType[file.attrs["root_joint"]],
+        ).build()
+        if not pairs:
+            model = model.without_collisions()
+    if model is not None:
+        _check_model(model, coordinates, pairs, path)
+    return Trajectory(
+        model=model,
+        options=StepOptions(law=ImpactLaw[file.attrs["law"]], **options),
+        coordinate_names=coordinates,
+        pair_names=pairs,
+        **arrays,
+        **numbers,
+    )
+
+
+def _check_model(
+    model: Model, coordinates: tuple[str, ...], pairs: tuple[str, ...], path: Path
+) -> None:
+    """Raise ModelError where a model cannot be that of the run."""
+    for what, own, others in (
+        ("coordinates", coordinates, model.coordinate_names),
+        ("pairs", pairs, model.pair_names),
+    ):
+        if list(own) != others:
+            raise ModelError(
+                f"the run in {path} has the {what} {', '.join(own) or 'none'}; the model has "
+                f"{', '.join(others) or 'none'}"
+            )
+
+
+def _root_joint(model: Model) -> JointType:
+    """Return how the root link of the URDF text hangs on the world.
+
+    A joint that `load_urdf` added is found by reading the text without it.
+    """
+    fixed = read_urdf(model.source).build()
+    if fixed.coordinate_names == model.coordinate_names:
+        return JointType.fixed
+    types = [joint.type for joint in model.joints if joint.parent == model.links[0].name]
+    return types[0] if len(types) == 1 else JointType.fixed

@@ -1,0 +1,130 @@
+"""Running a model for a while."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, TypedDict
+
+from numpy.typing import ArrayLike
+from tqdm import tqdm
+
+from saltus import _core
+from saltus._core import ImpactLaw, Model, ModelError, State, StepOptions
+from saltus.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Progress = Callable[[float], object]
+
+# Runs that end sooner need no bar.
+BAR_DELAY = 2.0  # [s]
+BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} s [{elapsed}<{remaining}]"
+
+
+class StepBounds(TypedDict, total=False):
+    """The bounds and tolerances of `StepOptions`, as keywords."""
+
+    max_iterations: int
+    max_impacts: int
+    max_impulses: int
+    rest: float
+    simultaneous: float
+
+
+def simulate(
+    model: Model,
+    q: Mapping[str, float] | ArrayLike | None = None,
+    v: Mapping[str, float] | ArrayLike | None = None,
+    *,
+    duration: float,
+    h: float = 0.01,
+    law: ImpactLaw = ImpactLaw.nodal_energy,
+    collisions: bool = True,
+    record_every: int = 1,
+    state: State | None = None,
+    progress: bool | Progress | None = None,
+    **bounds: Unpack[StepBounds],
+) -> Trajectory:
+    """Run a model from a state and record it.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (n,), or mapping of names to values, optional
+        [rad | m] coordinates at the start; those not named are 0.
+    v : array_like, shape (n,), or mapping of names to values, optional
+        [rad/s | m/s] velocities at the start.
+    duration : float
+        [s] a whole number of steps.
+    h : float
+        [s] step.
+    law : ImpactLaw
+        Which energy impacts conserve: `nodal_energy` or `discrete_energy`.
+    collisions : bool
+        False: bodies pass through each other.
+    record_every : int
+        Steps between recorded rows.
+    state : State, optional
+        The start in place of `q` and `v`, for instance `run.state(-1)` to go on with a run.
+    progress : bool or callable, optional
+        None: a progress bar on a terminal when the run takes longer than 2 s; True, False: always,
+        never; a callable is given the part done in [0, 1] about ten times a second.
+    **bounds
+        `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
+        `StepOptions`.
+
+    Returns
+    -------
+    Trajectory
+        Ctrl-C ends the run early; the trajectory then holds what is done so far and is not
+        `complete`.
+
+    Raises
+    ------
+    ModelError
+        On a start that does not fit the model or overlaps, a duration or h that is not positive,
+        a duration that is no whole number of steps.
+    StepError
+        When a step does not converge or its impacts do not end.
+    JammedError
+        When the impulses at one instant do not end.
+    """
+    if state is None:
+        state = model.state(q, v)
+    elif q is not None or v is not None:
+        raise ModelError("give either state or q and v, not both")
+    options = StepOptions(h, law, collisions, **bounds)
+    with _progress_bar(progress, duration) as report:
+        core = _core.simulate(
+            model, state, duration, options=options, record_every=record_every, progress=report
+        )
+    if not core.complete:
+        done, end = core.t[-1] - state.t, duration
+        print(
+            f"saltus: stopped after {done:g} s of {end:g} s; the trajectory holds these",
+            file=sys.stderr,
+        )
+    return Trajectory.from_core(core)
+
+
+@contextmanager
+def _progress_bar(progress: bool | Progress | None, duration: float) -> Iterator[Progress | None]:
+    """Give the function that `_core.simulate` is to call."""
+    if progress is False:
+        yield None
+        return
+    if callable(progress):
+        yield progress
+        return
+    always = progress is True
+    with tqdm(
+        total=duration,
+        bar_format=BAR_FORMAT,
+        delay=0.0 if always else BAR_DELAY,
+        disable=False if always else None,  # None: only where stderr is a terminal
+        leave=always,
+    ) as bar:
+        yield lambda part: bar.update(part * duration - bar.n)

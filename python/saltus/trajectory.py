@@ -1,0 +1,209 @@
+"""A recorded motion."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from saltus import _core
+from saltus._core import Impact, ImpactLaw, Model, ModelError, State, StepOptions
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = npt.NDArray[np.float64]
+
+IMPACT = np.dtype(
+    [("t", "f8"), ("first", "i8"), ("count", "i8"), ("contacts", "i4"), ("law", "u1")]
+    + [("fallback", "?")]
+)
+IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8")])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory:
+    """A recorded motion: rows are states, made by `simulate` and `load`.
+
+    Attributes
+    ----------
+    model : Model or None
+        None where it was loaded from a file that could not hold the model.
+    options : StepOptions
+    coordinate_names, pair_names : tuple of str
+    t : numpy.ndarray, shape (rows,)
+        [s]
+    q, v, p : numpy.ndarray, shape (rows, n)
+        Coordinates [rad | m], velocities and momenta.
+    kinetic, potential, total : numpy.ndarray, shape (rows,)
+        [J]
+    shadow : numpy.ndarray, shape (rows,)
+        [J] H - h^2 kappa / 24, which a fixed step conserves to O(h^4): a monitor of health.
+    impacts : numpy.ndarray
+        Structured, in order of time: "t" [s], "first" and "count" (its rows in `impulses`),
+        "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
+    impulses : numpy.ndarray
+        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s].
+    iterations : int
+        Newton iterations in all.
+    residual : float
+        [largest momentum] the worst of any step.
+    complete : bool
+        False where the run was stopped before its end.
+    energy_error : float
+        Greatest |H(t) - H(0)| over the greatest kinetic energy of the run.
+    """
+
+    model: Model | None
+    options: StepOptions
+    coordinate_names: tuple[str, ...]
+    pair_names: tuple[str, ...]
+    t: Array
+    q: Array
+    v: Array
+    p: Array
+    kinetic: Array
+    potential: Array
+    total: Array
+    shadow: Array
+    impacts: npt.NDArray[np.void]
+    impulses: npt.NDArray[np.void]
+    iterations: int
+    residual: float
+    complete: bool
+    energy_error: float
+
+    @classmethod
+    def from_core(cls, core: _core.Trajectory) -> Trajectory:
+        """Wrap what the compiled part returns; large arrays are not copied."""
+        impacts = core.impacts.astype(IMPACT)
+        impulses = np.empty(len(core.impulses), IMPULSE)
+        impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
+        impulses["pair"] = core.impulses["pair"]
+        impulses["lambda"] = core.impulses["lambda"]
+        for array in (impacts, impulses):
+            array.flags.writeable = False
+        model = core.model
+        names = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
+        numbers = ("iterations", "residual", "complete", "energy_error")
+        return cls(
+            model=model,
+            options=core.options,
+            coordinate_names=tuple(model.coordinate_names),
+            pair_names=tuple(model.pair_names),
+            impacts=impacts,
+            impulses=impulses,
+            **{name: getattr(core, name) for name in (*names, *numbers)},
+        )
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        return f"<saltus.Trajectory: {self.summary()}>"
+
+    def summary(self) -> str:
+        """Return one line that says how long, how many impacts and how exact."""
+        law = ImpactLaw(self.options.law).name
+        span = f"{self.t[0]:g} to {self.t[-1]:g} s" + ("" if self.complete else " (stopped)")
+        return (
+            f"{span}, h = {self.options.h:g} s, {law}, {len(self)} rows, {self.q.shape[1]} "
+            f"coordinates, {len(self.impacts)} impacts with {len(self.impulses)} impulses, "
+            f"energy error {self.energy_error:.1e}"
+        )
+
+    def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:
+        """Return one coordinate over time.
+
+        Parameters
+        ----------
+        name : str
+            Name of the coordinate.
+        of : {"q", "v", "p"}
+            Its value, its velocity or its momentum.
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows,)
+
+        Raises
+        ------
+        ModelError
+            On a name that is no coordinate's; lists those there are.
+        """
+        if name not in self.coordinate_names:
+            names = ", ".join(self.coordinate_names)
+            raise ModelError(f'no coordinate "{name}"; there are {names}')
+        if of not in ("q", "v", "p"):
+            raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
+        rows: Array = getattr(self, of)
+        return rows[:, self.coordinate_names.index(name)]
+
+    def state(self, row: int) -> State:
+        """Return the state of a row; negative rows count from the end."""
+        return State(float(self.t[row]), self.q[row], self.p[row])
+
+    def impact(self, index: int) -> Impact:
+        """Return one impact with its pairs by name."""
+        row = self.impacts[index]
+        own = self.impulses[row["first"] : row["first"] + row["count"]]
+        return Impact(
+            float(row["t"]),
+            [self.pair_names[pair] for pair in own["pair"]],
+            own["lambda"],
+            contacts=int(row["contacts"]),
+            law=ImpactLaw(int(row["law"])),
+            fallback=bool(row["fallback"]),
+        )
+
+    def require_model(self) -> Model:
+        """Return the model; raise ModelError where there is none."""
+        if self.model is None:
+            raise ModelError(
+                "this trajectory has no model, which was built in code and not from URDF text; "
+                "give it to load: saltus.load(path, model=model)"
+            )
+        return self.model
+
+    def poses(self, link: str | int) -> Array:
+        """Return the homogeneous matrices of a link, shape (rows, 4, 4)."""
+        return self.require_model().poses(self.q, link)
+
+    def velocities(self, link: str | int) -> Array:
+        """Return angular velocity [rad/s] and velocity of a link's origin [m/s], (rows, 6)."""
+        return self.require_model().velocities(self.q, self.v, link)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to an HDF5 file, with the model's URDF text in it.
+
+        A model that was built in code has no text; the file says so, and `load` then needs the
+        model to be given again.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+        """
+        from saltus import files
+
+        files.save(self, path)
+
+    def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
+        """Draw the run: a cradle as velocities with sketches, others as coordinates and energies.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            Where the picture is written; its ending says in which format.
+        **options
+            As in `saltus.plots.plot_cradle` or `saltus.plots.plot_run`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from saltus import plots
+
+        return plots.plot(self, path, **options)

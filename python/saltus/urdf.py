@@ -1,0 +1,59 @@
+"""From URDF to a model, with what was not used said aloud."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Sequence
+
+from numpy.typing import ArrayLike
+
+from saltus._core import JointType, Model, read_urdf
+
+
+class ModelWarning(UserWarning):
+    """Something in a model's file was understood but is not used."""
+
+
+def load_urdf(
+    path_or_text: str | os.PathLike[str],
+    *,
+    gravity: ArrayLike = (0.0, 0.0, -9.81),
+    package_dirs: Sequence[str | os.PathLike[str]] = (),
+    root_joint: JointType = JointType.fixed,
+) -> Model:
+    """Read a model from a URDF file or text.
+
+    Parameters
+    ----------
+    path_or_text : str or os.PathLike
+        A file, or URDF text where it begins with "<".
+    gravity : array_like, shape (3,)
+        [m/s^2]
+    package_dirs : sequence of str or os.PathLike
+        Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
+    root_joint : JointType
+        How the root link hangs on the world: fixed, or by a joint named "root" below a link
+        named "world".
+
+    Returns
+    -------
+    Model
+        Its `warnings` are also issued as `ModelWarning`.
+
+    Raises
+    ------
+    ModelError
+        With file and line, `element` and `name` of the culprit.
+
+    See Also
+    --------
+    read_urdf : gives a `ModelBuilder`, to add to the model before it is built.
+    """
+    builder = read_urdf(
+        path_or_text, gravity=gravity, package_dirs=package_dirs, root_joint=root_joint
+    )
+    model = builder.build()
+    for text in model.warnings:
+        warnings.warn(text, ModelWarning, stacklevel=2)
+    return model
