@@ -11,10 +11,25 @@ Vec9 nine(const Vec6& a, const Vec3& b) {
   return x;
 }
 
+/// Adds a joint's P, less what its own row takes out, to its parent's. P of a leaf is zero and is
+/// never touched: `loaded` tells.
+void load_parent(const ArcMatrix::Row& r, const Mat9& P, ArcMatrix::Row& parent, Mat9& P_parent) {
+  const Vec9 row = r.row * r.inverse_D;
+  if (r.loaded && parent.loaded) {
+    P_parent += P;
+  } else if (r.loaded) {
+    P_parent = P;
+  } else if (!parent.loaded) {
+    P_parent.setZero();
+  }
+  P_parent.noalias() -= r.gain * row.transpose();
+  parent.loaded = true;
+}
+
 bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
                      ArcMatrix& J) {
   const double half = tau / 2, quarter = -tau * tau / 4;
-  for (Mat9& P : J.P) P.setZero();
+  for (ArcMatrix::Row& r : J.joint) r.loaded = false;
   for (int i = tree.joints() - 1; i >= 0; --i) {
     const JointMotion& m = kin.joint[i];
     const JointComposite& c = comp.joint[i];
@@ -22,17 +37,17 @@ bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& c
     const Mat9& P = J.P[i];
     r.s = nine(m.S + half * m.W, angular(m.S));
     r.t = nine(m.S - half * m.W, quarter * angular(m.S));
-    r.gain.noalias() = P * r.s;
-    r.gain += nine(c.U + half * c.F, c.G);
-    r.row.noalias() = P.transpose() * r.t;
-    r.row += nine(c.U - half * c.F, quarter * c.G);
+    r.gain = nine(c.U + half * c.F, c.G);
+    r.row = nine(c.U - half * c.F, quarter * c.G);
+    if (r.loaded) {
+      r.gain.noalias() += P * r.s;
+      r.row.noalias() += P.transpose() * r.t;
+    }
     const double D = r.t.dot(r.gain);
     if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
     r.inverse_D = 1 / D;
     if (tree.parent[i] < 0) continue;
-    Mat9& P_parent = J.P[tree.parent[i]];
-    P_parent += P;
-    P_parent.noalias() -= r.gain * (r.row * r.inverse_D).transpose();
+    load_parent(r, P, J.joint[tree.parent[i]], J.P[tree.parent[i]]);
   }
   return true;
 }

@@ -146,8 +146,8 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
 ArcScratch::ArcScratch(const ModelData& model)
     : kin(model.tree), kin_end(model.tree), comp(model.tree), J(model.tree) {
   const int n = model.tree.coordinates, joints = model.tree.joints();
-  for (VecX* x : {&x, &L_v, &L_q, &r, &scale, &dv}) x->setZero(n);
-  for (VecX* x : {&v_joint, &joint_scale}) x->setZero(joints);
+  for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv}) each->setZero(n);
+  for (VecX* each : {&v_joint, &joint_scale}) each->setZero(joints);
 }
 
 bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,

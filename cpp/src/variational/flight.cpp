@@ -104,6 +104,13 @@ FirstHit first_hit(const ModelData& model, Node& node, Flight& f) {
   return first;
 }
 
+/// A pair that touches at the node and leaves, yet closes along the chord (node.dq) from the start:
+/// it hops, and is back before the arc ends.
+bool is_hop(const Node& node, int pair) {
+  const int contact = node.contact_of[pair];
+  return contact >= 0 && node.contacts[contact].n.dot(node.dq) <= 0;
+}
+
 void first_guess(double left, const Node& node, Flight& f) {
   if (!f.history.extrapolate(node.t + left / 2, f.arc.v)) f.arc.v = f.start_v;
 }
@@ -137,10 +144,10 @@ Flight::Flight(const ModelData& model)
       constraints(most_constraints),
       passed(model.pairs.size(), 0),
       flips(model.pairs.size(), 0) {
-  const int n = model.tree.coordinates;
-  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &this->n}) x->setZero(n);
+  const int n_q = model.tree.coordinates;
+  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &n}) x->setZero(n_q);
   for (ArcConstraint& c : constraints) {
-    for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n);
+    for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n_q);
   }
 }
 
@@ -163,9 +170,9 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     if (holds == Holds::changed) continue;
     const FirstHit hit = first_hit(model, node, f);
     if (hit.pair < 0) return FlightOutcome::arrived;
-    const bool hop = hit.s <= 0 && node.contact_of[hit.pair] >= 0;
+    const bool hop = is_hop(node, hit.pair);
     f.start_v = f.arc.v;
-    switch (find_impact_time(model, options, hit.pair, hit.s, node, f)) {
+    switch (find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f)) {
       case ImpactTime::found:
         if (hop) f.passed[hit.pair] = 1;  // both ends of its chord touch: nothing more to find
         tau = f.arc.tau;

@@ -108,7 +108,7 @@ bool solve_flight_arc(const ModelData& model, const StepOptions& options, double
 
 ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int pair, double s,
                             const Node& node, Flight& f) {
-  if (s <= 0 && node.contact_of[pair] >= 0) return find_return(model, options, pair, node, f);
+  if (s <= 0) return find_return(model, options, pair, node, f);
   const double tau = f.arc.tau;
   const bool closed = gap_at_end(model, pair, f).phi < 0;
   f.arc.v += (s - 1) * tau * f.rate;

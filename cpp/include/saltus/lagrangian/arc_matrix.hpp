@@ -29,6 +29,7 @@ struct ArcMatrix {
   struct Row {
     Vec9 s, t, gain, row;  ///< gain = P s + w
     double inverse_D;
+    bool loaded;  ///< P is not zero: some joint hangs on this one
   };
   std::vector<Row> joint;        ///< (n)
   std::vector<Mat9> P;           ///< (n) scratch of factorize
