@@ -33,7 +33,17 @@ Mat3 rotation_z_to(const Vec3& axis) {
       return R;
     }
   }
-  return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis).toRotationMatrix();
+  // Else the shortest turn from the nearer pole, after half a turn about x if that is -z. From the
+  // farther one it would lose half of the digits.
+  const double sign = axis.z() < 0 ? -1 : 1;
+  const Vec3 k = sign * Vec3::UnitZ().cross(axis);  // sine of the turn times its axis
+  const double c = sign * axis.z();                 // its cosine
+  Mat3 K;
+  K << 0, -k.z(), k.y(), k.z(), 0, -k.x(), -k.y(), k.x(), 0;
+  Mat3 R = Mat3::Identity() + K + K * K / (1 + c);
+  R.col(1) *= sign;
+  R.col(2) = axis;
+  return R;
 }
 
 }  // namespace saltus
