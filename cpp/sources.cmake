@@ -66,18 +66,6 @@ set(SALTUS_BINDING_SOURCES
   # lagrangian
   python/bindings/bind_lagrangian.cpp
   # collision
-  cpp/src/collision/broad_phase.cpp
-  cpp/src/collision/chord.cpp
-  cpp/src/collision/chord_bounds.cpp
-  cpp/src/collision/chord_path.cpp
-  cpp/src/collision/contact.cpp
-  cpp/src/collision/gap.cpp
-  cpp/src/collision/shapes.cpp
-  cpp/src/collision/sphere_box.cpp
-  cpp/src/collision/sphere_capsule.cpp
-  cpp/src/collision/sphere_cylinder.cpp
-  cpp/src/collision/sphere_half_space.cpp
-  cpp/src/collision/sphere_sphere.cpp
   python/bindings/bind_collision.cpp
   # model
   python/bindings/bind_model.cpp
@@ -91,7 +79,3 @@ set(SALTUS_BINDING_SOURCES
   # rollout
   python/bindings/bind_rollout.cpp
 )
-
-if(NOT SALTUS_SOURCES)
-  message(FATAL_ERROR "cpp/sources.cmake lists no file yet: append the first .cpp to SALTUS_SOURCES")
-endif()

@@ -34,7 +34,7 @@ def test_cpp_project_finds_the_pip_package(tmp_path):
     command = [sys.executable, "-m", "saltus", "cmake-dir"]
     prefix = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
     assert Path(prefix).resolve() == package_prefix()
-    assert build_and_run_consumer(tmp_path, prefix) == "3 links fall\n"
+    assert build_and_run_consumer(tmp_path, prefix) == "6 coordinates\n"
 
 
 def test_cpp_project_finds_an_installed_tree(tmp_path):
@@ -47,7 +47,7 @@ def test_cpp_project_finds_an_installed_tree(tmp_path):
     cmake("--install", build, "--prefix", prefix)
     cmeel = cmeel_prefix()
     search = f"{prefix};{cmeel}" if cmeel else str(prefix)
-    assert build_and_run_consumer(tmp_path / "build", search) == "3 links fall\n"
+    assert build_and_run_consumer(tmp_path / "build", search) == "6 coordinates\n"
 
 
 def cmeel_prefix() -> Path | None:
