@@ -1,5 +1,5 @@
-// A project of somebody else's, found by find_package(saltus): it needs the headers, the library with
-// what that links to in turn, and the URDF files beside it.
+// A project of somebody else's, found by find_package(saltus): it needs the headers, the library
+// with what that links to in turn, and the URDF files beside it.
 #include <saltus/saltus.hpp>
 
 #include <iostream>
