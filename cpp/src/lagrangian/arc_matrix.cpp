@@ -44,8 +44,8 @@ bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& c
       r.row.noalias() += P.transpose() * r.t;
     }
     const double D = r.t.dot(r.gain);
-    if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
     r.inverse_D = 1 / D;
+    if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
     if (tree.parent[i] < 0) continue;
     load_parent(r, P, J.joint[tree.parent[i]], J.P[tree.parent[i]]);
   }

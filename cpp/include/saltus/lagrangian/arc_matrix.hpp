@@ -43,7 +43,8 @@ struct ArcMatrix {
 };
 
 /// Needs second_pass at the (q, v) in question.
-/// @return false where a pivot vanishes or is not a number: J is singular there.
+/// @return false where a pivot vanishes or is not a number: J is singular there. The joint is the
+/// last whose inverse_D is not a finite number; those before it are not eliminated.
 SALTUS_EXPORT bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp,
                              double tau, ArcMatrix& J);
 
