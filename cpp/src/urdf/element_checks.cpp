@@ -31,12 +31,17 @@ bool is_zero(const XMLElement& element, const char* name) {
   return std::all_of(values.begin(), values.end(), [](double x) { return x == 0; });
 }
 
-void check_joint(const Document& document, const XMLElement& joint) {
+void check_joint(const Document& document, const XMLElement& joint, Warnings& warnings) {
   const Owner owner{"joint", attribute(joint, "name")};
   const std::string type = attribute(joint, "type");
   const std::vector<std::string>& types = joint_types();
   if (std::find(types.begin(), types.end(), type) == types.end()) {
     document.fail(joint, owner, "has type " + in_quotes(type) + "; types are " + list_names(types));
+  }
+  const XMLElement* mimic = joint.FirstChildElement("mimic");
+  if (type == "fixed" && mimic != nullptr) {  // what remains where a gripper was locked
+    warnings.push_back(document.at(*mimic) + owner.show() +
+                       " is fixed, so its <mimic> is not used");
   }
   const XMLElement* axis = joint.FirstChildElement("axis");
   if (has_axis(type) && axis != nullptr && is_zero(*axis, "xyz")) {
@@ -112,7 +117,7 @@ void check_elements(const Document& document, Warnings& warnings) {
   for (const XMLElement* link : document.all("link")) {
     check_collisions(document, *link, {"link", attribute(*link, "name")}, warnings);
   }
-  for (const XMLElement* joint : document.all("joint")) check_joint(document, *joint);
+  for (const XMLElement* joint : document.all("joint")) check_joint(document, *joint, warnings);
 }
 
 }  // namespace saltus::reader

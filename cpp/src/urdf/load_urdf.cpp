@@ -67,7 +67,7 @@ JointSpec joint_spec(const urdf::Joint& joint, const std::string& type) {
     const Vec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
     spec.axis = axis / axis.cwiseAbs().maxCoeff();  // else the square of 1e-200 would be zero
   }
-  if (joint.mimic != nullptr) {
+  if (joint.mimic != nullptr && spec.type != JointType::fixed) {
     spec.mimic = Mimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
   }
   set_limits(joint, spec);

@@ -73,14 +73,18 @@ class SchemaCheck {
   void check_attributes_known(const XMLElement& element, const ElementRule& rule,
                               const Owner& owner) {
     const std::vector<std::string> known = rule.attribute_names();
+    std::vector<std::string> unknown;
     for (auto a = element.FirstAttribute(); a; a = a->Next()) {
       const std::string name = a->Name();
       const bool foreign = name.find(':') != std::string::npos || name == "xmlns";
       if (foreign || std::find(known.begin(), known.end(), name) != known.end()) continue;
-      report_unknown(element, rule, owner,
-                     subject(element, owner) + " has an unknown attribute " + in_quotes(name),
-                     known);
+      unknown.push_back(name);
     }
+    if (unknown.empty()) return;
+    const std::string what =
+        unknown.size() == 1 ? " has an unknown attribute, " : " has unknown attributes, ";
+    report_unknown(element, rule, owner, subject(element, owner) + what + list_names(unknown),
+                   known);
   }
 
   void check_count(const XMLElement& element, const ElementRule& rule, const Owner& owner) const {
@@ -117,7 +121,7 @@ class SchemaCheck {
     const bool foreign = name.find(':') != std::string::npos;
     if (foreign || std::count(rule.skipped.begin(), rule.skipped.end(), name) > 0) return;
     report_unknown(child, rule, owner,
-                   subject(element, owner) + " has an unknown element <" + name + ">",
+                   subject(element, owner) + " has an unknown element, <" + name + ">",
                    rule.child_names());
   }
 
@@ -127,7 +131,7 @@ class SchemaCheck {
     const std::string alternatives =
         known.empty() ? "none is known here" : "known are " + list_names(known);
     if (rule.strict) throw ModelError(text + "; " + alternatives, owner.element, owner.name);
-    warnings_.push_back(text + ", which is not used; " + alternatives);
+    warnings_.push_back(text + " (not used); " + alternatives);
   }
 
   const Document& document_;
