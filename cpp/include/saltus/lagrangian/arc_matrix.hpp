@@ -39,7 +39,7 @@ struct ArcMatrix {
   Eigen::PartialPivLU<MatX> lu;  ///< of dense
 
   ArcMatrix() = default;
-  explicit ArcMatrix(const Tree& tree);
+  SALTUS_EXPORT explicit ArcMatrix(const Tree& tree);
 };
 
 /// Needs second_pass at the (q, v) in question.
