@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -73,6 +74,10 @@ void place_balls(const Tree& tree, const std::vector<PlacedShape>& shapes, const
     // half the margin a ball: margin a pair
     const double radius = bounding_radius(shape.shape) + motion + margin / 2;
     bp.reach[i] = radius + rounding * (bp.center[i].cwiseAbs().maxCoeff() + radius);
+    if (!std::isfinite(bp.center[i].sum() + bp.reach[i])) {  // q or dq is not: met by all
+      bp.center[i].setZero();
+      bp.reach[i] = std::numeric_limits<double>::infinity();
+    }
   }
 }
 
@@ -125,16 +130,16 @@ void sweep(BroadPhase& bp) {
   }
 }
 
-/// Pairs with a half-space z <= 0, which does not move.
+/// Pairs with a half-space z <= 0, which does not move and adds its half of the margin here.
 void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
-                    BroadPhase& bp) {
+                    double margin, BroadPhase& bp) {
   for (const int i : bp.unbounded) {
     const Pose X_WG = kin.X_WJ(tree, shapes[i].joint) * shapes[i].X_JG;
+    const double beyond = margin / 2 + rounding * X_WG.p.cwiseAbs().maxCoeff();
     for (int k = bp.first_partner[i]; k < bp.first_partner[i + 1]; ++k) {
       const BroadPhase::Partner& partner = bp.partner[k];
       const Vec3 c = bp.center[partner.shape] - X_WG.p;
-      const double slack = rounding * X_WG.p.cwiseAbs().maxCoeff();
-      if (X_WG.R.col(2).dot(c) <= bp.reach[partner.shape] + slack) {
+      if (X_WG.R.col(2).dot(c) <= bp.reach[partner.shape] + beyond) {
         bp.candidates.push_back(partner.pair);
       }
     }
@@ -188,7 +193,7 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
   for (const int i : bp.order) bp.lower[i] = bp.center[i][bp.axis] - bp.reach[i];
   sort_by_lower(bp);
   sweep(bp);
-  meet_unbounded(tree, shapes, kin, bp);
+  meet_unbounded(tree, shapes, kin, margin, bp);
   std::sort(bp.candidates.begin(), bp.candidates.end());
 }
 

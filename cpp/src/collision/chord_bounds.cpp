@@ -1,4 +1,4 @@
-// How fast the centre P of sphere a can move, seen from b.
+// How fast the centre P of sphere a can move, as b sees it.
 //
 // Reference: theory, section 4, here to third order. With u_l the velocity of P for unit speed of
 // joint l, and joints i, j <= l in the order from b to a, the derivatives of P in b's frame are
@@ -16,6 +16,9 @@
 // placements one after the other, each at its longest on the chord, to P if l is on a's branch.
 // On b's branch the path ends at b's core (the point or segment that a round shape is swept about,
 // the whole of another), and P is no farther from it than phi + the radii.
+//
+// Where b is a sphere, P is seen from its centre with the directions of the common ancestor: each
+// branch moves its own centre, in the order from the ancestor to the shape, and the sums add.
 //
 // |phi'| <= mu = sum x_l rho_l: n.u_l is the same for every point of the contact line, so a's
 // branch takes P and b's the core's point, and no radius enters.
@@ -50,9 +53,11 @@ struct Path {
   double rest;
 
   double from_axis() const {
-    return std::max(std::hypot(first.x(), first.y()), std::hypot(last.x(), last.y())) + rest;
+    return std::sqrt(std::max(first.head<2>().squaredNorm(), last.head<2>().squaredNorm())) + rest;
   }
-  double from_origin() const { return std::max(first.norm(), last.norm()) + rest; }
+  double from_origin() const {
+    return std::sqrt(std::max(first.squaredNorm(), last.squaredNorm())) + rest;
+  }
 };
 
 /// Calls visit(l, x_l, R_l) for each joint of the branch that carries `shape`, from the shape up.
@@ -64,8 +69,8 @@ double walk_branch(const Chord& chord, const PlacedShape& shape, double sign, It
   for (; k != end && k->sign == sign; ++k) {
     const int l = k->joint;
     const double w = chord.rate(l), x = chord.start(l), h = chord.slide_per_unit(l);
-    const bool turns = chord.tree.joint[l].turns();
-    visit(l, std::abs(w), turns ? std::hypot(path.from_axis(), h) : 1);
+    const double lever = chord.tree.joint[l].turns() ? path.from_axis() : 0;
+    visit(l, std::abs(w), std::sqrt(lever * lever + h * h));
     const Pose& X_PJ = chord.tree.X_PJ[l];
     const Vec3 axis = h * X_PJ.R.col(2);
     path = {X_PJ.p + x * axis, X_PJ.p + (x + w) * axis, path.from_origin()};
@@ -85,6 +90,26 @@ double walk_branch_b(const Chord& chord, Visit visit) {
   return walk_branch(chord, chord.b(), -1, chain.begin(), chain.end(), visit);
 }
 
+/// Adds the terms of one joint: T is what turns before it.
+void add_joint_terms(const Chord& chord, int l, double x, double R, double T, ChordBounds& bounds) {
+  const bool turns = chord.tree.joint[l].turns();
+  bounds.B += R * x * (turns ? 2 * T + x : 2 * T);
+  bounds.C += R * x * (turns ? 3 * T * (T + x) + x * x : 3 * T * T);
+}
+
+/// The same for a branch walked from its shape up, in the order from the ancestor down; `before`
+/// is what turns before the whole branch.
+template <class Walk>
+void add_branch_terms(const Chord& chord, const Walk& walk, double before, ChordBounds& bounds) {
+  const auto turn_of = [&](int l, double x) { return chord.tree.joint[l].turns() ? x : 0; };
+  double T = before;
+  walk([&](int l, double x, double) { T += turn_of(l, x); });
+  walk([&](int l, double x, double R) {
+    T = std::max(T - turn_of(l, x), before);
+    add_joint_terms(chord, l, x, R, T, bounds);
+  });
+}
+
 }  // namespace
 
 ChordBounds first_bounds(const Chord& chord) {
@@ -98,27 +123,21 @@ ChordBounds first_bounds(const Chord& chord) {
 }
 
 void add_higher_bounds(const Chord& chord, double phi, ChordBounds& bounds) {
-  const Tree& tree = chord.tree;
-  const auto add = [&](int l, double x, double R, double T) {
-    const bool turns = tree.joint[l].turns();
-    bounds.B += R * x * (turns ? 2 * T + x : 2 * T);
-    bounds.C += R * x * (turns ? 3 * T * (T + x) + x * x : 3 * T * T);
-  };
-  const double radii = core_of(chord.a().shape).radius + core_of(chord.b().shape).radius;
-  const double beyond_b = std::max(phi + bounds.mu, 0.0) + radii;
-  double turned = 0;  // T of the next joint from b's end
-  walk_branch_b(chord, [&](int l, double x, double R) {
-    const bool turns = tree.joint[l].turns();
-    add(l, x, turns ? R + beyond_b : R, turned);
-    if (turns) turned += x;
-  });
-  walk_branch_a(chord, [&](int l, double x, double) {
-    if (tree.joint[l].turns()) turned += x;
-  });
-  walk_branch_a(chord, [&](int l, double x, double R) {
-    if (tree.joint[l].turns()) turned = std::max(turned - x, 0.0);
-    add(l, x, R, turned);
-  });
+  const auto walk_a = [&](auto visit) { walk_branch_a(chord, visit); };
+  const auto walk_b = [&](auto visit) { walk_branch_b(chord, visit); };
+  double before_a = 0;
+  if (chord.b_is_sphere()) {
+    add_branch_terms(chord, walk_b, 0, bounds);
+  } else {
+    const double radii = core_of(chord.a().shape).radius + core_of(chord.b().shape).radius;
+    const double beyond_b = std::max(phi + bounds.mu, 0.0) + radii;
+    walk_b([&](int l, double x, double R) {
+      const bool turns = chord.tree.joint[l].turns();
+      add_joint_terms(chord, l, x, turns ? R + beyond_b : R, before_a, bounds);
+      if (turns) before_a += x;
+    });
+  }
+  add_branch_terms(chord, walk_a, before_a, bounds);
   bounds.B *= slack;
   bounds.C *= slack;
 }

@@ -6,8 +6,8 @@
 //   r'  = Rz (p' + w z x p) + h w z
 //   r'' = Rz (p'' + 2 w z x p' + w^2 z x (z x p))
 //
-// On a's branch the walk goes up, by these; on b's branch it goes down, by their inverse, which is
-// the same with x, w and the placement reversed.
+// A walk up a branch goes by these; a walk down by their inverse, which is the same with x, w and
+// the placement reversed.
 #include <cmath>
 
 #include "collision/chord_path.hpp"
@@ -53,19 +53,39 @@ void go_down(const Chord& chord, int joint, double s, MovingPoint& P) {
   if (chord.tree.joint[joint].turns()) turn(P, -x, -w);
 }
 
+/// A shape's origin in the frame of the common ancestor; `k` runs over its branch, leaf first.
+template <class Iterator>
+MovingPoint rise(const Chord& chord, const PlacedShape& shape, double sign, double s, Iterator k,
+                 Iterator end) {
+  MovingPoint P{shape.X_JG.p, Vec3::Zero(), Vec3::Zero()};
+  for (; k != end && k->sign == sign; ++k) go_up(chord, k->joint, s, P);
+  return P;
+}
+
+/// From the frame of the common ancestor to that of shape b.
+MovingPoint descend_to_b(const Chord& chord, double s, MovingPoint P) {
+  const std::vector<ChainJoint>& chain = chord.pair.chain;
+  for (auto k = chain.rbegin(); k != chain.rend(); ++k) {
+    if (k->sign < 0) go_down(chord, k->joint, s, P);
+  }
+  const Pose& X_JB = chord.b().X_JG;
+  const Mat3 R_BJ = X_JB.R.transpose();
+  return {R_BJ * (P.p - X_JB.p), R_BJ * P.v, R_BJ * P.a};
+}
+
 }  // namespace
 
 ChordSample sample_chord(const Chord& chord, double s) {
-  MovingPoint P{chord.a().X_JG.p, Vec3::Zero(), Vec3::Zero()};
   const std::vector<ChainJoint>& chain = chord.pair.chain;
-  for (auto k = chain.rbegin(); k != chain.rend(); ++k) {
-    k->sign > 0 ? go_up(chord, k->joint, s, P) : go_down(chord, k->joint, s, P);
+  MovingPoint P = rise(chord, chord.a(), +1, s, chain.rbegin(), chain.rend());
+  if (chord.b_is_sphere()) {
+    const MovingPoint B = rise(chord, chord.b(), -1, s, chain.begin(), chain.end());
+    P = {P.p - B.p, P.v - B.v, P.a - B.a};
+  } else {
+    P = descend_to_b(chord, s, P);
   }
-  const Pose& X_JB = chord.b().X_JG;
-  const Pose X_BA{Mat3::Identity(), X_JB.R.transpose() * (P.p - X_JB.p)};
-  const Gap g = gap(chord.a().shape, X_BA, chord.b().shape, Pose{});
-  const Vec3 n_J = X_JB.R * g.n_W;  // b's frame is the world of this gap
-  return {g.phi, n_J.dot(P.v), n_J.dot(P.a)};
+  const Gap g = gap(chord.a().shape, {Mat3::Identity(), P.p}, chord.b().shape, {});
+  return {g.phi, g.n_W.dot(P.v), g.n_W.dot(P.a)};
 }
 
 }  // namespace saltus

@@ -1,4 +1,8 @@
-// The centre P of sphere a in the frame of shape b, along a chord q(s) = q + s dq.
+// The centre P of sphere a as b sees it, along a chord q(s) = q + s dq.
+//
+// Seen from a frame in which b's solid is at rest: b's own; but where b is a sphere, one that goes
+// with its centre and keeps the directions of the joint frame above both branches. So two balls
+// that swing side by side are at rest to each other, although both turn.
 #pragma once
 
 #include "saltus/collision/contact.hpp"
@@ -15,6 +19,7 @@ struct Chord {
 
   const PlacedShape& a() const { return shapes[pair.a]; }
   const PlacedShape& b() const { return shapes[pair.b]; }
+  bool b_is_sphere() const { return std::holds_alternative<Sphere>(b().shape); }
   double start(int joint) const {  ///< [rad | m] displacement of a joint at s = 0
     const Drive& drive = tree.drive[joint];
     return drive.multiplier * q[drive.coordinate] + drive.offset;
@@ -29,7 +34,7 @@ struct Chord {
   }
 };
 
-/// The gap at one s. Because d is convex, phi(s + d) >= phi + n.(P(s + d) - P(s)) for all d.
+/// The gap at one s.
 struct ChordSample {
   double phi;   ///< [m]
   double rate;  ///< [m] phi' = n.P'

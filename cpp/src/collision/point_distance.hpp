@@ -2,6 +2,7 @@
 // a convex solid.
 //
 //   phi = d(c) - r_a,   n = grad d,   F = d2 d,   p_A = c - r_a n,   p_B = c - d n
+//   F = k (I - n n^T) - g t t^T       k: curvature across n; g: how much of it lacks along t
 //
 // Reference: theory, section 7, "by feature". d < 0 inside, where it belongs to the nearest face.
 // All solids here are convex, so d is a convex function of c everywhere, inside too; the certified
@@ -17,7 +18,9 @@ namespace saltus {
 struct PointDistance {
   double d;               ///< [m] from the surface, negative inside
   Vec3 n;                 ///< unit normal, away from the solid
-  Mat3 F = Mat3::Zero();  ///< [1/m] second derivative of d; 0 where it is infinite
+  double k = 0;           ///< [1/m] 0 also where it is infinite
+  double g = 0;           ///< [1/m]
+  Vec3 t = Vec3::Zero();  ///< unit vector across n, where g is not 0
 };
 
 /// [m] The square of a shorter vector has lost its digits: a point this close to a feature lies
@@ -29,8 +32,7 @@ inline constexpr double no_length = 1e-140;
 inline PointDistance distance_from_point(const Vec3& v, const Vec3& fallback) {
   const double d = v.norm();
   if (d < no_length) return {0, fallback};
-  const Vec3 n = v / d;
-  return {d, n, (Mat3::Identity() - n * n.transpose()) / d};
+  return {d, v / d, 1 / d};
 }
 
 /// Distance from a straight line along axis `t` of the frame; component t of `v` is ignored.
@@ -38,7 +40,8 @@ inline PointDistance distance_from_point(const Vec3& v, const Vec3& fallback) {
 inline PointDistance distance_from_line(Vec3 v, int t, const Vec3& fallback) {
   v[t] = 0;
   PointDistance out = distance_from_point(v, fallback);
-  if (out.d > 0) out.F(t, t) = 0;  // (I - t t^T - n n^T) / d: no curvature along the line
+  out.g = out.k;
+  out.t = Vec3::Unit(t);
   return out;
 }
 
@@ -52,15 +55,18 @@ inline Vec3 in_frame(const Pose& X_WB, const Vec3& p_W) {
 }
 
 /// The gap of a sphere from its centre's distance to the solid b.
-inline Gap sphere_gap(const Sphere& a, const Pose& X_WA, const Pose& X_WB,
-                      const PointDistance& distance_B) {
-  const Vec3 n_W = X_WB.R * distance_B.n;
-  return {.phi = distance_B.d - a.radius,
+inline Gap sphere_gap(const Sphere& a, const Pose& X_WA, const Pose& X_WB, const PointDistance& x) {
+  const Vec3 n_W = X_WB.R * x.n;
+  Gap out{.phi = x.d - a.radius,
           .n_W = n_W,
           .p_WA = X_WA.p - a.radius * n_W,
-          .p_WB = X_WA.p - distance_B.d * n_W,
+          .p_WB = X_WA.p - x.d * n_W,
           .center_W = X_WA.p,
-          .F_W = X_WB.R * distance_B.F * X_WB.R.transpose()};
+          .F_W = x.k * (Mat3::Identity() - n_W * n_W.transpose())};
+  if (x.g == 0) return out;
+  const Vec3 t_W = X_WB.R * x.t;
+  out.F_W -= x.g * t_W * t_W.transpose();
+  return out;
 }
 
 }  // namespace saltus

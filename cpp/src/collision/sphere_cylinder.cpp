@@ -2,13 +2,13 @@
 //
 //   rho = |(c_x, c_y)|, w = unit vector away from the axis, t = z x w, s = sign of c_z
 //   e_r = rho - radius, e_z = |c_z| - half_length
-//   both > 0        rim:   d = |(e_r, e_z)|, n = (e_r w + e_z s z)/d, m = (e_z w - e_r s z)/d,
-//                          F = m m^T/d + (n.w/rho) t t^T
+//   both > 0        rim:   d = |(e_r, e_z)|, n = (e_r w + e_z s z)/d, k = 1/d, g = radius/(d rho)
 //   else e_r > e_z  side:  d = e_r, n = w, F = t t^T/rho
 //   else            cap:   d = e_z, n = s z, F = 0
 //
-// The rim is a ring: across it the distance curves as about a point (m), along it as a cone whose
-// generators lean by n (t). Inside, both e < 0 and the nearer surface counts.
+// The rim is a ring. Across it the distance curves as about a point, with 1/d; along it as a cone
+// about the axis whose generators lean by n, with (n.w)/rho = 1/d - g. The side curves along t
+// only: k (I - n n^T) without its part along z. Inside, both e < 0 and the nearer surface counts.
 #include "collision/sphere_cylinder.hpp"
 
 #include <cmath>
@@ -23,17 +23,15 @@ PointDistance distance_from_cylinder(const Vec3& c, const Cylinder& b) {
   const bool off_axis = rho > no_length;
   const Vec3 w = off_axis ? Vec3(c.x() / rho, c.y() / rho, 0) : Vec3(Vec3::UnitX());
   const Vec3 z(0, 0, side(c.z()));
-  const Vec3 t(-w.y(), w.x(), 0);
   const double e_r = rho - b.radius, e_z = std::abs(c.z()) - b.half_length;
   const double d = std::hypot(e_r, e_z);
   if (e_r > 0 && e_z > 0 && d > no_length) {
-    const Vec3 m = (e_z * w - e_r * z) / d;
-    return {d, (e_r * w + e_z * z) / d,
-            m * m.transpose() / d + e_r / (d * rho) * t * t.transpose()};
+    const Vec3 t(-w.y(), w.x(), 0);
+    return {d, (e_r * w + e_z * z) / d, 1 / d, b.radius / (d * rho), t};
   }
   if (e_r <= e_z) return {e_z, z};
   if (!off_axis) return {e_r, w};
-  return {e_r, w, t * t.transpose() / rho};
+  return {e_r, w, 1 / rho, 1 / rho, Vec3::UnitZ()};
 }
 
 }  // namespace

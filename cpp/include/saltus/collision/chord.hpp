@@ -29,7 +29,7 @@ SALTUS_EXPORT double gap_change_bound(const Tree& tree, const std::vector<Placed
 /// not a hit at s = 0, one with phi' <= 0 is ("=" in both: up to rounding). An s that is hit is
 /// never late, and early by less than phi's rounding. Needs a sphere as a. Allocates nothing.
 ///
-/// Bounded: two bodies that swing together nearer to the floor than about 1e-6 of the third power
+/// Bounded: two bodies that swing together nearer to the floor than about 1e-8 of the third power
 /// of their motion are not_converged, clear up to s.
 SALTUS_EXPORT ChordHit first_hit_on_chord(const Tree& tree, const std::vector<PlacedShape>& shapes,
                                           const Pair& pair, const VecRef& q, const VecRef& dq,
