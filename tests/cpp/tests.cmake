@@ -12,6 +12,12 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_partials.cpp
 )
 set(SALTUS_TEST_collision
+  collision/test_broad_phase.cpp
+  collision/test_chord.cpp
+  collision/test_contact.cpp
+  collision/test_gap.cpp
+  collision/test_gap_degenerate.cpp
+  collision/test_no_allocation.cpp
 )
 set(SALTUS_TEST_model
 )

@@ -1,0 +1,116 @@
+// Random shapes, poses, trees and pairs: the same on every machine, for a seed.
+#pragma once
+
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "saltus/collision/contact.hpp"
+
+namespace saltus::testing_scene {
+
+struct Random {
+  std::mt19937 engine;
+  explicit Random(unsigned seed) : engine(seed) {}
+
+  /// std::uniform_real_distribution may differ between standard libraries; this does not.
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
+  }
+  int index(int n) { return static_cast<int>(engine() % static_cast<unsigned>(n)); }
+  bool chance(double p) { return uniform(0, 1) < p; }
+  Vec3 vector(double scale) {
+    return {uniform(-scale, scale), uniform(-scale, scale), uniform(-scale, scale)};
+  }
+  Vec3 direction() {
+    Vec3 x = vector(1);
+    while (x.norm() < 0.1 || x.norm() > 1) x = vector(1);
+    return x.normalized();
+  }
+  Mat3 rotation() {
+    return Eigen::AngleAxisd(uniform(-std::numbers::pi, std::numbers::pi), direction())
+        .toRotationMatrix();
+  }
+  Pose pose(double scale) { return {rotation(), vector(scale)}; }
+  VecX numbers(int n, double scale) {
+    VecX x(n);
+    for (double& value : x) value = uniform(-scale, scale);
+    return x;
+  }
+};
+
+/// A shape of the kind that `shape_name` calls so, with sizes of 0.1 to 0.6.
+inline Shape random_shape(const std::string& kind, Random& random) {
+  const auto size = [&] { return random.uniform(0.1, 0.6); };
+  if (kind == "sphere") return Sphere{size()};
+  if (kind == "capsule") return Capsule{size(), size()};
+  if (kind == "box") return Box{Vec3(size(), size(), size())};
+  if (kind == "cylinder") return Cylinder{size(), size()};
+  if (kind == "half_space") return HalfSpace{};
+  throw std::invalid_argument("no random shape for kind " + kind);
+}
+
+struct TreeOptions {
+  int joints = 4;
+  double offset = 0.4;     ///< [m] greatest component of a placement
+  double branching = 0.3;  ///< chance that a joint hangs on any earlier frame, not on the last
+  double mimic = 0.2;      ///< chance that a joint is driven by an earlier coordinate
+};
+
+inline Tree random_tree(const TreeOptions& options, Random& random) {
+  Tree tree;
+  for (int i = 0; i < options.joints; ++i) {
+    const int parent = random.chance(options.branching) ? random.index(i + 1) - 1 : i - 1;
+    Joint joint{static_cast<Joint::Kind>(random.index(3)), 0};
+    if (joint.kind == Joint::Kind::helical) joint.pitch = random.uniform(-0.3, 0.3);
+    Drive drive{tree.coordinates, 1, 0};
+    if (i > 0 && random.chance(options.mimic)) {
+      drive = {random.index(tree.coordinates), random.uniform(-2, 2), random.uniform(-1, 1)};
+    }
+    add_joint(tree, parent, joint, random.pose(options.offset), drive);
+  }
+  return tree;
+}
+
+inline PlacedShape place(const Shape& shape, int joint, const Pose& X_JG) {
+  PlacedShape placed;
+  placed.shape = shape;
+  placed.joint = joint;
+  placed.X_JG = X_JG;
+  return placed;
+}
+
+inline Pair make_pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b) {
+  return {a, b, chain_between(tree, shapes[b].joint, shapes[a].joint), 1e-10};
+}
+
+/// A sphere on one joint and a shape of the kind on another, or on the world if a half-space.
+struct Scene {
+  Tree tree;
+  std::vector<PlacedShape> shapes;
+  Pair pair;
+  VecX q;
+
+  Gap gap_at(const VecX& configuration) const {
+    Kinematics kin(tree);
+    set_configuration(tree, configuration, kin);
+    return pair_gap(tree, kin, shapes, pair);
+  }
+};
+
+inline Scene random_scene(const std::string& kind, const TreeOptions& options, Random& random) {
+  Scene scene;
+  scene.tree = random_tree(options, random);
+  const int joint_a = random.index(options.joints);
+  int joint_b = kind == "half_space" ? -1 : random.index(options.joints + 1) - 1;
+  if (joint_b == joint_a) joint_b = -1;
+  scene.shapes = {place(Sphere{random.uniform(0.05, 0.2)}, joint_a, random.pose(options.offset)),
+                  place(random_shape(kind, random), joint_b, random.pose(options.offset))};
+  scene.pair = make_pair_of(scene.tree, scene.shapes, 0, 1);
+  scene.q = random.numbers(scene.tree.coordinates, 1.5);
+  return scene;
+}
+
+}  // namespace saltus::testing_scene

@@ -1,0 +1,219 @@
+// The broad phase against every pair's own gap: nothing that can touch is dropped.
+#include "saltus/collision/broad_phase.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/random_scene.hpp"
+#include "saltus/collision/chord.hpp"
+
+namespace saltus {
+namespace {
+
+using testing_scene::make_pair_of;
+using testing_scene::place;
+using testing_scene::Random;
+using testing_scene::random_shape;
+using testing_scene::random_tree;
+
+struct World {
+  Tree tree;
+  std::vector<PlacedShape> shapes;
+  std::vector<Pair> pairs;
+
+  void add_all_pairs() {
+    const int n = static_cast<int>(shapes.size());
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        if (!has_gap(shapes[i].shape, shapes[j].shape)) continue;
+        if (shapes[i].joint == shapes[j].joint) continue;
+        const bool i_is_a = std::holds_alternative<Sphere>(shapes[i].shape);
+        pairs.push_back(make_pair_of(tree, shapes, i_is_a ? i : j, i_is_a ? j : i));
+      }
+    }
+  }
+
+  BroadPhase broad_phase() const { return {tree, shapes, pairs}; }
+
+  const std::vector<int>& find(const VecX& q, const VecX& dq, double margin, BroadPhase& bp) const {
+    Kinematics kin(tree);
+    set_configuration(tree, q, kin);
+    find_candidates(tree, shapes, kin, dq, margin, bp);
+    return bp.candidates;
+  }
+
+  /// Least gap of each pair over samples of the chord.
+  std::vector<double> least_gaps(const VecX& q, const VecX& dq) const {
+    std::vector<double> least(pairs.size(), 1e300);
+    Kinematics kin(tree);
+    for (int k = 0; k <= 16; ++k) {
+      set_configuration(tree, q + k / 16.0 * dq, kin);
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        least[i] = std::min(least[i], pair_gap(tree, kin, shapes, pairs[i]).phi);
+      }
+    }
+    return least;
+  }
+};
+
+World random_world(Random& random) {
+  World world;
+  const int joints = 1 + random.index(30);
+  // branching with the world among the choices: several trees
+  world.tree = random_tree({.joints = joints, .offset = 1, .branching = 0.5}, random);
+  const std::vector<std::string> kinds = {"sphere",  "sphere", "sphere",
+                                          "capsule", "box",    "cylinder"};
+  for (int k = 0; k < 20; ++k) {
+    const Shape shape = random_shape(kinds[random.index(6)], random);
+    world.shapes.push_back(place(shape, random.index(joints + 1) - 1, random.pose(1)));
+  }
+  for (int k = random.index(3); k > 0; --k) {
+    world.shapes.insert(world.shapes.begin() + random.index(20),
+                        place(HalfSpace{}, -1, {random.rotation(), random.vector(5)}));
+  }
+  world.add_all_pairs();
+  return world;
+}
+
+TEST(BroadPhase, DropsNoPairThatCanTouch) {
+  Random random(31);
+  std::size_t dropped = 0, all = 0;
+  for (int w = 0; w < 60; ++w) {
+    const World world = random_world(random);
+    BroadPhase bp = world.broad_phase();
+    VecX q = random.numbers(world.tree.coordinates, 3);
+    for (int step = 0; step < 8; ++step) {  // small steps, and leaps between them
+      const bool leap = step % 4 == 3;
+      const VecX dq = random.numbers(world.tree.coordinates, leap ? 2 : 0.05);
+      const double margin = step % 2 == 0 ? 0 : 0.1;
+      const std::vector<int>& found = world.find(q, dq, margin, bp);
+      const std::vector<double> least = world.least_gaps(q, dq);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+      for (int i = 0; i < static_cast<int>(least.size()); ++i) {
+        const bool kept = std::binary_search(found.begin(), found.end(), i);
+        EXPECT_TRUE(kept || least[i] > margin) << "pair " << i << " comes to " << least[i];
+        if (leap) continue;
+        ++all;
+        dropped += !kept;
+      }
+      q += dq;
+    }
+  }
+  EXPECT_GT(dropped, all / 2);  // and it is of use
+}
+
+// Where the certified advance finds a hit, the pair must have been a candidate: the chain of the
+// two in the stepper.
+TEST(BroadPhase, KeepsEveryHitOfAChord) {
+  Random random(32);
+  int hits = 0;
+  for (int w = 0; w < 100; ++w) {
+    const World world = random_world(random);
+    BroadPhase bp = world.broad_phase();
+    const VecX q = random.numbers(world.tree.coordinates, 3);
+    const VecX dq = random.numbers(world.tree.coordinates, 0.5);
+    const std::vector<int>& found = world.find(q, dq, 0, bp);
+    for (int i = 0; i < static_cast<int>(world.pairs.size()); ++i) {
+      const ChordHit hit = first_hit_on_chord(world.tree, world.shapes, world.pairs[i], q, dq, 0);
+      if (hit.outcome != ChordHit::Outcome::hit) continue;
+      ++hits;
+      EXPECT_TRUE(std::binary_search(found.begin(), found.end(), i));
+    }
+  }
+  EXPECT_GT(hits, 300);
+}
+
+/// n free balls of radius 0.5 in a row that touch their neighbours, each on a slide across.
+World row_of_balls(int n, const Vec3& along, const Vec3& start) {
+  World world;
+  for (int i = 0; i < n; ++i) {
+    add_joint(world.tree, -1, {Joint::Kind::prismatic, 0}, {Mat3::Identity(), start + i * along},
+              {i, 1, 0});
+    world.shapes.push_back(place(Sphere{0.5}, i, {}));
+  }
+  world.add_all_pairs();
+  return world;
+}
+
+TEST(BroadPhase, FindsJustTheNeighboursInARow) {
+  const int n = 60;
+  const std::vector<Vec3> starts = {Vec3::Zero(), Vec3(1000, -3000, 2000)};
+  for (const Vec3& start : starts) {
+    for (const Vec3& along : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0, 0.6, -0.8)}) {
+      const World world = row_of_balls(n, along, start);
+      BroadPhase bp = world.broad_phase();
+      const VecX still = VecX::Zero(n);
+      // exactly touching, without any margin
+      ASSERT_EQ(world.find(still, still, 0, bp).size(), n - 1);
+      for (int i = 0; i < n - 1; ++i) {
+        const Pair& pair = world.pairs[bp.candidates[i]];
+        EXPECT_EQ(pair.b, pair.a + 1);
+      }
+      int axis = 0;
+      along.cwiseAbs().maxCoeff(&axis);
+      EXPECT_EQ(bp.axis, axis);  // the sweep goes along the row
+    }
+  }
+}
+
+TEST(BroadPhase, HoldsHalfSpacesAgainstTheirPartners) {
+  World world = row_of_balls(10, 3 * Vec3::UnitZ(), Vec3(0, 0, 0.5));
+  world.shapes.push_back(place(HalfSpace{}, -1, {}));
+  world.pairs.clear();
+  for (int i = 0; i < 10; ++i) world.pairs.push_back(make_pair_of(world.tree, world.shapes, i, 10));
+  BroadPhase bp = world.broad_phase();
+  VecX q = VecX::Zero(10), dq = VecX::Zero(10);
+  EXPECT_EQ(world.find(q, dq, 0, bp), std::vector<int>({0}));
+  dq[4] = -12;  // falls 12 m to the floor
+  EXPECT_EQ(world.find(q, dq, 0, bp), std::vector<int>({0, 4}));
+  EXPECT_EQ(world.find(q, 0 * dq, 3, bp), std::vector<int>({0, 1}));
+}
+
+TEST(BroadPhase, KnowsPairsThatAreListedTwiceAndShapesInNone) {
+  World world = row_of_balls(4, Vec3::UnitX(), Vec3::Zero());
+  world.pairs = {make_pair_of(world.tree, world.shapes, 2, 1),
+                 make_pair_of(world.tree, world.shapes, 1, 2)};
+  BroadPhase bp = world.broad_phase();
+  EXPECT_EQ(world.find(VecX::Zero(4), VecX::Zero(4), 0, bp), std::vector<int>({0, 1}));
+  EXPECT_EQ(bp.order.size(), 2u);
+}
+
+TEST(BroadPhase, OfNothingFindsNothing) {
+  World world;
+  BroadPhase bp = world.broad_phase();
+  EXPECT_TRUE(world.find(VecX(), VecX(), 1, bp).empty());
+}
+
+TEST(BroadPhase, KeepsAllPairsOfAMotionThatIsNotFinite) {
+  const World world = row_of_balls(30, 3 * Vec3::UnitX(), Vec3::Zero());
+  BroadPhase bp = world.broad_phase();
+  const VecX q = VecX::Zero(30);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(world.find(q, VecX::Constant(30, bad), 0, bp).size(), world.pairs.size());
+    EXPECT_EQ(world.find(VecX::Constant(30, bad), q, 0, bp).size(), world.pairs.size());
+  }
+  EXPECT_TRUE(world.find(q, q, 0, bp).empty());
+}
+
+// The order of balls that pass each other, and of a scene that jumps, is the sorted one.
+TEST(BroadPhase, KeepsTheOrder) {
+  Random random(33);
+  const int n = 200;
+  World world = row_of_balls(n, Vec3::Zero(), Vec3::Zero());
+  for (Pose& X : world.tree.X_PJ) X.R = rotation_z_to(Vec3::UnitX());
+  BroadPhase bp = world.broad_phase();
+  for (int k = 0; k < 10; ++k) {
+    const VecX q = random.numbers(n, 1000);  // a jump
+    for (const VecX& x : {q, VecX(q + random.numbers(n, 2))}) {
+      world.find(x, VecX::Zero(n), 0, bp);
+      for (int i = 1; i < n; ++i) EXPECT_LE(bp.lower[bp.order[i - 1]], bp.lower[bp.order[i]]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace saltus

@@ -1,0 +1,71 @@
+// What the stepper calls in every step must not allocate.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "collision/random_scene.hpp"
+#include "saltus/collision/broad_phase.hpp"
+#include "saltus/collision/chord.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Replaces the global operator of the whole test program, the library's calls included.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace saltus {
+namespace {
+
+using testing_scene::make_pair_of;
+using testing_scene::place;
+using testing_scene::Random;
+
+TEST(Allocation, CounterCounts) {
+  const long before = allocations;
+  const std::vector<int> some(10);
+  EXPECT_GT(allocations, before);
+}
+
+TEST(Allocation, NoneInAStep) {
+  Random random(41);
+  const int n = 12;
+  const Tree tree = testing_scene::random_tree({.joints = n}, random);
+  std::vector<PlacedShape> shapes;
+  for (int i = 0; i < n; ++i) shapes.push_back(place(Sphere{0.4}, i, random.pose(0.2)));
+  shapes.push_back(place(HalfSpace{}, -1, {}));
+  shapes.push_back(place(Box{Vec3(0.2, 0.3, 0.4)}, 2, random.pose(0.2)));
+  std::vector<Pair> pairs;
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n + 2; ++j) pairs.push_back(make_pair_of(tree, shapes, i, j));
+  }
+  Kinematics kin(tree);
+  BroadPhase bp(tree, shapes, pairs);
+  const VecX q = random.numbers(tree.coordinates, 1), dq = random.numbers(tree.coordinates, 1);
+  VecX phi_q = VecX::Zero(q.size());
+  MatX phi_qq = MatX::Zero(q.size(), q.size());
+
+  const long before = allocations;
+  set_configuration(tree, q, kin);
+  find_candidates(tree, shapes, kin, dq, 0, bp);
+  int hits = 0;
+  for (const int i : bp.candidates) {
+    hits += first_hit_on_chord(tree, shapes, pairs[i], q, dq, 0).outcome == ChordHit::Outcome::hit;
+    const Gap g = pair_gap(tree, kin, shapes, pairs[i]);
+    add_gap_gradient(tree, kin, pairs[i], g, phi_q);
+    add_gap_hessian(tree, kin, pairs[i], g, phi_qq);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(hits, 0);
+}
+
+}  // namespace
+}  // namespace saltus
