@@ -182,7 +182,8 @@ def test_every_source_file_is_listed(listing, base, folders):
         for folder in folders
         for path in (ROOT / folder).rglob("*.cpp")
     }
-    assert listed == present
+    assert not listed - present, f"{listing} lists files that do not exist"
+    assert not present - listed, f"append these to {listing}"
 
 
 def test_cpp_functions_are_found():
