@@ -8,6 +8,8 @@ set(SALTUS_TEST_tree
   tree/test_tree.cpp
 )
 set(SALTUS_TEST_lagrangian
+  lagrangian/test_arc_matrix.cpp
+  lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
   lagrangian/test_partials.cpp
 )
@@ -20,6 +22,7 @@ set(SALTUS_TEST_collision
   collision/test_no_allocation.cpp
 )
 set(SALTUS_TEST_model
+  model/test_golden.cpp
 )
 set(SALTUS_TEST_variational
 )

@@ -1,0 +1,158 @@
+// J(tau) factored along the tree against dense matrices; products with second partials.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "lagrangian/evaluate.hpp"
+#include "numeric.hpp"
+#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/partials.hpp"
+
+namespace saltus {
+namespace {
+
+using test::Random;
+using test::RandomTree;
+using test::relative_error;
+using test::varied_tree;
+
+// Times of zero, of a usual step, and of a step so long that the parts with tau rule.
+constexpr double times[] = {0, 0.01, 0.3};
+
+/// theory, section 3, from the dense partials.
+MatX arc_matrix(const LagrangianPartials& L, double tau) {
+  return L.L_vv + tau / 2 * (L.L_vq - L.L_vq.transpose()) - tau * tau / 4 * L.L_qq;
+}
+
+TEST(ArcMatrix, DenseIsTheSumOfPartials) {
+  for (int k = 0; k < 200; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
+    for (const double tau : times) {
+      const int n = t.tree.coordinates;
+      MatX J = MatX::Ones(n, n);  // add_dense adds
+      add_dense(t.tree, at.kin, at.comp, tau, J);
+      // rounding of sums of products of two 6-vectors
+      EXPECT_LT(relative_error(MatX(J - MatX::Ones(n, n)), arc_matrix(L, tau), 1), 1e-14) << k;
+    }
+  }
+}
+
+// x of the sweep and x of a dense LU differ by the rounding of both, 1e-16 times the condition of J
+// and a factor that grows with n.
+TEST(ArcMatrix, SolveAgreesWithDenseLU) {
+  for (int k = 0; k < 300; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
+    ArcMatrix J(t.tree);
+    Random random(static_cast<std::uint64_t>(k));
+    for (const double tau : times) {
+      const MatX dense = arc_matrix(L, tau);
+      const Eigen::FullPivLU<MatX> lu(dense);
+      const double condition = 1 / lu.rcond();
+      if (condition > 1e4) continue;
+      const VecX r = random.vector(t.tree.coordinates);
+      VecX x = r;
+      ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, J));
+      solve(t.tree, J, x);
+      EXPECT_LT(relative_error(x, VecX(lu.solve(r))), 1e-12) << k << " tau " << tau;
+    }
+  }
+}
+
+// Backward error: whatever the condition, J x = r holds to rounding.
+TEST(ArcMatrix, SolveLeavesNoResidual) {
+  for (int k = 0; k < 300; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
+    ArcMatrix J(t.tree);
+    const VecX r = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates);
+    for (const double tau : {0.0, 0.01}) {
+      const MatX dense = arc_matrix(L, tau);
+      VecX x = r;
+      ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, J));
+      solve(t.tree, J, x);
+      EXPECT_LT((dense * x - r).norm(), 1e-13 * dense.norm() * x.norm()) << k << " tau " << tau;
+    }
+  }
+}
+
+TEST(ArcMatrix, CanBeUsedAgain) {
+  const RandomTree t = varied_tree(9);
+  const test::Evaluation at = test::evaluate(t);
+  ArcMatrix fresh(t.tree), used(t.tree);
+  const VecX r = Random(1).vector(t.tree.coordinates);
+  VecX x = r, y = r;
+  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.3, used));
+  solve(t.tree, used, y);
+  y = r;
+  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.01, used));
+  solve(t.tree, used, y);
+  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.01, fresh));
+  solve(t.tree, fresh, x);
+  EXPECT_EQ(x, y);
+}
+
+TEST(ArcMatrix, DeepTreesKeepTheirDigits) {
+  Random random(4);
+  RandomTree t = random_tree(random, {.joints = 300, .branch = 0.1});
+  t.v *= 0.1;  // speeds add up along the tree
+  const test::Evaluation at = test::evaluate(t);
+  const MatX dense = arc_matrix(lagrangian(t.tree, t.mass, t.q, t.v), 0.001);
+  ArcMatrix J(t.tree);
+  const VecX r = random.vector(t.tree.coordinates);
+  VecX x = r;
+  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.001, J));
+  solve(t.tree, J, x);
+  EXPECT_LT((dense * x - r).norm(), 1e-12 * dense.norm() * x.norm());  // rounding of 300 joints
+}
+
+TEST(ArcMatrix, SingularAndNaNAreTold) {
+  for (const double mimic : {0.0, 0.5}) {
+    Random random(6);
+    RandomTree t = random_tree(random, {.joints = 6, .branch = 0, .mimic = mimic});
+    EXPECT_EQ(t.tree.one_to_one, mimic == 0);
+    ArcMatrix J(t.tree);
+    RandomTree nan = t;
+    nan.v[0] = std::numeric_limits<double>::quiet_NaN();
+    const test::Evaluation at_nan = test::evaluate(nan);
+    EXPECT_FALSE(factorize(t.tree, at_nan.kin, at_nan.comp, 0.01, J));
+    RandomTree massless = t;
+    for (BodyInertia& body : massless.mass.body) body = {};
+    const test::Evaluation at_massless = test::evaluate(massless);
+    EXPECT_FALSE(factorize(t.tree, at_massless.kin, at_massless.comp, 0, J));
+    const test::Evaluation at = test::evaluate(t);
+    EXPECT_TRUE(factorize(t.tree, at.kin, at.comp, 0, J));
+  }
+}
+
+TEST(SecondPartialsTimes, AgreeWithDenseProducts) {
+  SecondPartialsTimes times_x;  // reused: sizes must adapt
+  for (int k = 0; k < 200; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
+    const VecX x = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates);
+    VecX by_joint(t.tree.joints()), folded(t.tree.coordinates);
+    to_joints(t.tree, x, by_joint);
+    multiply_second_partials(t.tree, at.kin, at.comp, by_joint, times_x);
+    const double scale = L.L_vv.norm() + L.L_qq.norm() + L.L_vq.norm();
+    const auto expect = [&](const VecX& product, const MatX& matrix) {
+      to_coordinates(t.tree, product, folded);
+      // rounding, of sums that cancel at times
+      EXPECT_LT(relative_error(folded, VecX(matrix * x), scale), 1e-14) << k << matrix;
+    };
+    expect(times_x.L_vv_x, L.L_vv);
+    expect(times_x.L_vq_x, L.L_vq);
+    expect(times_x.L_qv_x, L.L_vq.transpose());
+    expect(times_x.L_qq_x, L.L_qq);
+  }
+}
+
+}  // namespace
+}  // namespace saltus
