@@ -9,7 +9,7 @@
 namespace saltus {
 
 /// Rows are recorded states. `impacts[i].first` counts into `impulses` of the whole trajectory.
-struct Trajectory {
+struct SALTUS_EXPORT Trajectory {
   Model model;
   StepOptions options;
   VecX t;                         ///< (rows) [s]
