@@ -57,7 +57,7 @@ VecX to_vector(const Coordinates& x, const Model& model, const char* what) {
   return out;
 }
 
-int to_index(const py::object& item, const std::vector<std::string>& names, const char* what) {
+int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what) {
   const int n = static_cast<int>(names.size());
   if (py::isinstance<py::str>(item)) {
     const auto name = item.cast<std::string>();

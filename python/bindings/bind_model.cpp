@@ -168,7 +168,7 @@ void bind_model(py::module_& m) {
           "[J] of gravity, zero at the world's origin.", py::arg("q"))
       .def(
           "pose",
-          [](const Model& model, const Coordinates& q, const py::object& link) {
+          [](const Model& model, const Coordinates& q, const NameOrIndex& link) {
             return model.X_WL(to_vector(q, model, "q"),
                               to_index(link, names_of(model->links), "link"));
           },

@@ -41,23 +41,23 @@ constexpr auto shape_poses_doc = R"(As `poses`, for the frame of a shape: its na
 constexpr auto shape_velocities_doc =
     R"(As `velocities`, for the frame of a shape: its name or index.)";
 
-AttachedFrame frame_of_link(const Model& model, const py::object& link) {
+AttachedFrame frame_of_link(const Model& model, const NameOrIndex& link) {
   return link_frame(model, to_index(link, names_of(model->links), "link"));
 }
 
-AttachedFrame frame_of_shape(const Model& model, const py::object& shape) {
+AttachedFrame frame_of_shape(const Model& model, const NameOrIndex& shape) {
   return shape_frame(model, to_index(shape, names_of(model->shapes), "shape"));
 }
 
 template <auto frame>
-py::array_t<double> many_poses(const Model& model, const MatX& q, const py::object& item) {
+py::array_t<double> many_poses(const Model& model, const MatX& q, const NameOrIndex& item) {
   const auto rows = static_cast<py::ssize_t>(q.rows());
   const py::object flat = py::cast(poses(model, frame(model, item), q));
   return flat.attr("reshape")(rows, 4, 4);
 }
 
 template <auto frame>
-MatX many_velocities(const Model& model, const MatX& q, const MatX& v, const py::object& item) {
+MatX many_velocities(const Model& model, const MatX& q, const MatX& v, const NameOrIndex& item) {
   return velocities(model, frame(model, item), q, v);
 }
 

@@ -66,15 +66,18 @@ bool go_on(py::handle progress, double part) {
   return true;
 }
 
+using Progress = py::typing::Callable<py::object(double)>;
+
 Trajectory run(const Model& model, const State& start, double duration, const StepOptions& step,
-               int record_every, const py::object& progress) {
+               int record_every, const std::optional<Progress>& progress) {
   SimulateOptions options;
   options.h = step.h;
   options.law = step.law;
   options.collisions = step.collisions;
   options.record_every = record_every;
   options.step = step;
-  options.progress = [handle = py::handle(progress)](double part) { return go_on(handle, part); };
+  const py::handle told = progress ? py::handle(*progress) : py::handle(Py_None);
+  options.progress = [told](double part) { return go_on(told, part); };
   const py::gil_scoped_release release;
   return simulate(model, start, duration, options);
 }

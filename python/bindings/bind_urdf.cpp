@@ -3,6 +3,28 @@
 #include "saltus/urdf/load_urdf.hpp"
 
 namespace saltus::bindings {
+
+/// Anything that os.fspath takes.
+struct PathLike {
+  py::object value;
+};
+
+}  // namespace saltus::bindings
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<saltus::bindings::PathLike> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::PathLike, const_name("str | os.PathLike[str]"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace saltus::bindings {
 namespace {
 
 constexpr auto read_urdf_doc = R"(Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -29,15 +51,18 @@ ModelError
     With file and line, `element` and `name` of the culprit.
 )";
 
-std::string to_path(const py::object& path) {
-  return py::module_::import("os").attr("fspath")(path).cast<std::string>();
+std::string to_path(const PathLike& path) {
+  return py::module_::import("os").attr("fspath")(path.value).cast<std::string>();
 }
 
-ModelBuilder read_urdf(const py::object& path_or_text, const Vec3& gravity,
-                       const py::object& package_dirs, JointType root_joint) {
+ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
+                       const py::typing::Iterable<PathLike>& package_dirs, JointType root_joint) {
+  if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
+    throw py::type_error("package_dirs is a sequence of folders, not one text");
+  }
   UrdfOptions options{gravity, {}, root_joint};
   for (const py::handle path : package_dirs) {
-    options.package_dirs.push_back(to_path(py::reinterpret_borrow<py::object>(path)));
+    options.package_dirs.push_back(to_path({py::reinterpret_borrow<py::object>(path)}));
   }
   const std::string text = to_path(path_or_text);
   const py::gil_scoped_release release;

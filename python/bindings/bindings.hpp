@@ -8,6 +8,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <vector>
 
@@ -40,8 +41,11 @@ struct Coordinates {
 /// @throws ModelError on a name that the model has not, and on what are no numbers or not (n_q).
 VecX to_vector(const Coordinates& x, const Model& model, const char* what);
 
+/// How links and shapes are named.
+using NameOrIndex = py::typing::Union<py::str, py::int_>;
+
 /// Index of a link or shape that is given by name or by index.
-int to_index(const py::object& item, const std::vector<std::string>& names, const char* what);
+int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what);
 
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {

@@ -50,8 +50,7 @@ def cradle(
         raise ModelError(f"gap = {gap} m: balls at rest cannot overlap")
     step = 2 * radius + gap
     parts = [
-        _pendulum(i, (i - (balls - 1) / 2) * step, radius, masses[i], length)
-        for i in range(balls)
+        _pendulum(i, (i - (balls - 1) / 2) * step, radius, masses[i], length) for i in range(balls)
     ]
     return f'<robot name="cradle_{balls}">\n  <link name="frame"/>\n{"".join(parts)}</robot>\n'
 

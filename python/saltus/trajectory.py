@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 IMPACT = np.dtype(
-    [("t", "f8"), ("first", "i8"), ("count", "i8"), ("contacts", "i4"), ("law", "u1")]
-    + [("fallback", "?")]
+    {
+        "names": ["t", "first", "count", "contacts", "law", "fallback"],
+        "formats": ["f8", "i8", "i8", "i4", "u1", "?"],
+    }
 )
 IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8")])
 

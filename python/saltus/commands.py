@@ -1,0 +1,150 @@
+"""What the commands of the command line do."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import saltus
+from saltus import files, plots
+
+MOST_IMPACTS = 12  # lines of the table of impacts
+MOST_IMPULSES = 4  # impulses on a line of it
+INTERRUPTED = 130  # what a shell expects of a program that Ctrl-C ended
+
+
+def assignment(text: str) -> tuple[str, float]:
+    """Return name and value of "name=value"."""
+    name, equals, value = text.partition("=")
+    if not name or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not of the form NAME=VALUE")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{value}' in '{text}' is no number") from None
+
+
+def cmake_dir(_: argparse.Namespace) -> int:
+    """Print the CMake prefix of the package."""
+    print(saltus.cmake_dir())
+    return 0
+
+
+def simulate(chosen: argparse.Namespace) -> int:
+    """Run a model, print its impacts and energy error, write what is asked for."""
+    for path in (chosen.out, chosen.plot):
+        _check_folder(path)
+    if chosen.plot:
+        plots.new_figure(chosen.plot, (1, 1))  # says at once, not after the run, what is missing
+    model = _load(chosen)
+    run = saltus.simulate(
+        model,
+        q=dict(chosen.q),
+        v=dict(chosen.v),
+        duration=chosen.duration,
+        h=chosen.h,
+        law=saltus.ImpactLaw[chosen.law],
+        collisions=not chosen.no_collisions,
+        record_every=chosen.record_every,
+    )
+    _print_impacts(run, everything=chosen.all_impacts)
+    print(run.summary())
+    if chosen.out:
+        files.save(run, chosen.out)
+        print(f"trajectory: {chosen.out}")
+    if chosen.plot:
+        plots.plot(run, chosen.plot)
+        print(f"picture: {chosen.plot}")
+    return 0 if run.complete else INTERRUPTED
+
+
+def info(chosen: argparse.Namespace) -> int:
+    """Print what a model consists of."""
+    model = _load(chosen)
+    mass = sum(link.mass for link in model.links)
+    print(
+        f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
+        f"coordinates, {len(model.shapes)} shapes, {len(model.pairs)} pairs, {mass:g} kg"
+    )
+    _print_table(
+        "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}"] for link in model.links)
+    )
+    _print_coordinates(model)
+    _print_table(
+        "shapes",
+        ["name", "shape", "link"],
+        ([s.name, repr(s.shape), model.links[s.link].name] for s in model.shapes),
+    )
+    _print_pair_kinds(model)
+    if chosen.pairs:
+        _print_table("pairs", ["name"], ([name] for name in model.pair_names))
+    return 0
+
+
+def _load(chosen: argparse.Namespace) -> saltus.Model:
+    root = saltus.JointType.floating if chosen.floating else saltus.JointType.fixed
+    # A path, whatever its name begins with: text is for programs.
+    return saltus.load_urdf(str(Path(chosen.file).absolute()), root_joint=root)
+
+
+def _check_folder(path: str | None) -> None:
+    """Raise where a file cannot be written later: before a long run, not after it."""
+    if path is not None and not Path(path).absolute().parent.is_dir():
+        raise saltus.ModelError(f"{path}: there is no folder {Path(path).parent}")
+
+
+def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:
+    shown = len(run.impacts) if everything else min(len(run.impacts), MOST_IMPACTS)
+    if shown:
+        print("     t [s]  pairs in order (λ [N s])")
+    for i in range(shown):
+        impact = run.impact(i)
+        most = len(impact.pairs) if everything else MOST_IMPULSES
+        impulses = [
+            f"{pair} ({value:.4g})"
+            for pair, value in zip(impact.pairs[:most], impact.lambdas[:most], strict=True)
+        ]
+        if len(impact.pairs) > most:
+            impulses.append(f"... {len(impact.pairs) - most} more")
+        print(f"{impact.t:10.6f}  {', '.join(impulses)}")
+    if shown < len(run.impacts):
+        print(
+            f"            ... {len(run.impacts) - shown} more impacts (--all-impacts prints them)"
+        )
+
+
+def _print_coordinates(model: saltus.Model) -> None:
+    def limit(x: float) -> str:
+        return "" if math.isinf(x) else f"{x:g}"
+
+    rows = (
+        [c.name, c.joint, "rad" if c.angular else "m", limit(c.lower), limit(c.upper)]
+        for c in model.coordinates
+    )
+    _print_table("coordinates", ["name", "joint", "unit", "lower", "upper"], rows)
+
+
+def _print_pair_kinds(model: saltus.Model) -> None:
+    def kind(a: int, b: int) -> tuple[str, str]:
+        first, second = sorted(saltus.shape_name(model.shapes[i].shape) for i in (a, b))
+        return first, second
+
+    counts = Counter(kind(pair.a, pair.b) for pair in model.pairs)
+    table = sorted({(min(row), max(row)) for row in saltus.gap_table()})
+    rows = ([f"{a} ~ {b}", str(counts[a, b])] for a, b in table)
+    _print_table("kinds of pairs", ["kind", "in this model"], rows)
+
+
+def _print_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    lines = [list(heads), *rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(heads))]
+    if len(lines) == 1:
+        print(f"\n{title}: none")
+        return
+    print(f"\n{title}")
+    for line in lines:
+        cells = (cell.ljust(width) for cell, width in zip(line, widths, strict=True))
+        print(("  " + "  ".join(cells)).rstrip())

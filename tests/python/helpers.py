@@ -1,0 +1,58 @@
+"""Models and commands that several test files use."""
+
+from __future__ import annotations
+
+import functools
+import os
+import subprocess
+import sys
+
+import numpy as np
+
+import saltus
+
+
+@functools.cache
+def cradle(balls: int = 3) -> saltus.Model:
+    return saltus.load_urdf(saltus.scenes.cradle(balls))
+
+
+@functools.cache
+def chain(links: int) -> saltus.Model:
+    return saltus.load_urdf(saltus.scenes.chain(links))
+
+
+@functools.cache
+def cradle_run() -> saltus.Trajectory:
+    return saltus.simulate(cradle(), q={"swing_0": 0.3}, duration=2.0, progress=False)
+
+
+def bouncing_ball(height: float = 1.0, radius: float = 0.1) -> saltus.ModelBuilder:
+    """Return a ball on a vertical slide above a floor; at z = 0 it hangs `height` above it."""
+    return (
+        saltus.ModelBuilder("ball")
+        .add_link("ball", saltus.solid_sphere(1.0, radius))
+        .add_joint(
+            "z",
+            saltus.JointType.prismatic,
+            parent="world",
+            child="ball",
+            X_PJ=saltus.Pose((0, 0, height + radius)),
+            axis=(0, 0, 1),
+        )
+        .add_shape("ball", saltus.Sphere(radius))
+        .add_half_space("floor", (0, 0, 1))
+    )
+
+
+def random_state(model: saltus.Model, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    return rng.uniform(-1, 1, model.n_q), rng.uniform(-1, 1, model.n_q)
+
+
+def run_cli(*arguments: object, **options: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "saltus", *map(str, arguments)]
+    environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
+    return subprocess.run(
+        command, capture_output=True, text=True, env=environment, timeout=120, **options
+    )

@@ -1,0 +1,124 @@
+"""Saving and loading trajectories."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+import pytest
+from helpers import bouncing_ball, cradle_run
+
+import saltus
+from saltus.files import ARRAYS, NUMBERS, OPTIONS
+
+
+def assert_same(a: saltus.Trajectory, b: saltus.Trajectory) -> None:
+    for name in (*ARRAYS, "impacts", "impulses"):
+        x, y = getattr(a, name), getattr(b, name)
+        assert x.dtype == y.dtype
+        assert x.tobytes() == y.tobytes(), name  # to the last bit, also of zeros and NaN
+        assert not y.flags.writeable
+    for name in (*NUMBERS, "coordinate_names", "pair_names"):
+        assert getattr(a, name) == getattr(b, name), name
+    for name in (*OPTIONS, "law"):
+        assert getattr(a.options, name) == getattr(b.options, name), name
+
+
+def test_a_file_is_complete(tmp_path):
+    run = cradle_run()
+    run.save(tmp_path / "run.h5")
+    again = saltus.load(tmp_path / "run.h5")
+    assert_same(run, again)
+    assert again.model.source == run.model.source
+    assert again.model.coordinate_names == run.model.coordinate_names
+    np.testing.assert_array_equal(again.poses("ball_1"), run.poses("ball_1"))
+    assert again.impact(0).pairs == run.impact(0).pairs
+    # Going on gives the same bits as going on with the original.
+    ends = [saltus.simulate(r.model, state=r.state(-1), duration=0.2).state(-1)
+            for r in (run, again)]  # fmt: skip
+    assert ends[0] == ends[1]
+    again.save(tmp_path / "again.h5")
+    assert_same(run, saltus.load(tmp_path / "again.h5"))
+    assert [path.name for path in sorted(tmp_path.iterdir())] == ["again.h5", "run.h5"]
+
+
+def test_options_of_the_model_are_kept(tmp_path):
+    floating = saltus.load_urdf(
+        saltus.scenes.chain(2), gravity=(0, 0, -1.62), root_joint=saltus.JointType.floating
+    )
+    run = saltus.simulate(
+        floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.discrete_energy,
+        max_impacts=77, rest=1e-9,
+    )  # fmt: skip
+    run.save(tmp_path / "run.h5")
+    again = saltus.load(tmp_path / "run.h5")
+    assert_same(run, again)
+    assert again.options.max_impacts == 77
+    assert again.model.n_q == 8
+    assert again.model.gravity[2] == -1.62
+
+
+def test_a_model_without_collisions_is_loaded_so(tmp_path):
+    run = saltus.simulate(cradle_run().model.without_collisions(), duration=0.1)
+    run.save(tmp_path / "run.h5")
+    assert saltus.load(tmp_path / "run.h5").model.pairs == []
+
+
+def test_a_model_built_in_code_is_not_in_the_file(tmp_path):
+    model = bouncing_ball().build()
+    run = saltus.simulate(model, duration=1.0)
+    run.save(tmp_path / "ball.h5")
+    with h5py.File(tmp_path / "ball.h5") as file:
+        assert "built in code" in file.attrs["model"]
+    again = saltus.load(tmp_path / "ball.h5")
+    assert_same(run, again)
+    assert again.model is None
+    with pytest.raises(saltus.ModelError, match="has no model"):
+        again.poses("ball")
+    again.plot(tmp_path / "ball.png")
+    assert_same(run, saltus.load(tmp_path / "ball.h5", model=model))
+    assert saltus.load(tmp_path / "ball.h5", model=model).poses("ball").shape == (101, 4, 4)
+    with pytest.raises(saltus.ModelError, match="the model has swing_0"):
+        saltus.load(tmp_path / "ball.h5", model=cradle_run().model)
+
+
+def test_files_that_are_none(tmp_path):
+    with pytest.raises(saltus.ModelError, match="no such file"):
+        saltus.load(tmp_path / "nowhere.h5")
+    (tmp_path / "text.h5").write_text("no HDF5")
+    with pytest.raises(saltus.ModelError, match=r"text.h5 is no trajectory"):
+        saltus.load(tmp_path / "text.h5")
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = 1
+    with pytest.raises(saltus.ModelError, match=r"other.h5 holds no trajectory"):
+        saltus.load(tmp_path / "other.h5")
+    cradle_run().save(tmp_path / "new.h5")
+    with h5py.File(tmp_path / "new.h5", "a") as file:
+        file.attrs["version"] = 99
+    with pytest.raises(saltus.ModelError, match="format version 99"):
+        saltus.load(tmp_path / "new.h5")
+    cradle_run().save(tmp_path / "less.h5")
+    with h5py.File(tmp_path / "less.h5", "a") as file:
+        del file["q"]
+    with pytest.raises(saltus.ModelError, match="no trajectory that saltus can read"):
+        saltus.load(tmp_path / "less.h5")
+
+
+def test_a_failed_save_leaves_the_old_file(tmp_path, monkeypatch):
+    path = tmp_path / "run.h5"
+    cradle_run().save(path)
+    before = path.read_bytes()
+    broken = saltus.simulate(cradle_run().model, duration=0.1)
+    monkeypatch.setattr("saltus.files.ARRAYS", ("t", "nonsense"))
+    with pytest.raises(AttributeError):
+        broken.save(path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_other_programs_can_read_the_file(tmp_path):
+    cradle_run().save(tmp_path / "run.h5")
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file.attrs["law"] == "nodal_energy"
+        law = h5py.check_enum_dtype(file["impacts"].dtype["law"])
+        assert law == {"nodal_energy": 0, "discrete_energy": 1}
+        assert file["urdf"].asstr()[()].startswith("<robot")
