@@ -173,6 +173,17 @@ TEST(BroadPhase, HoldsHalfSpacesAgainstTheirPartners) {
   EXPECT_EQ(world.find(q, 0 * dq, 3, bp), std::vector<int>({0, 1}));
 }
 
+TEST(BroadPhase, FollowsAScrewAlongItsAxis) {
+  World world;
+  add_joint(world.tree, -1, {Joint::Kind::helical, 3}, {Mat3::Identity(), 10 * Vec3::UnitZ()},
+            {0, 1, 0});
+  world.shapes = {place(Sphere{0.5}, 0, {}), place(HalfSpace{}, -1, {})};
+  world.add_all_pairs();
+  BroadPhase bp = world.broad_phase();
+  EXPECT_EQ(world.find(VecX::Zero(1), VecX::Constant(1, -3.2), 0, bp).size(), 1u);
+  EXPECT_EQ(world.find(VecX::Zero(1), VecX::Constant(1, -3.1), 0, bp).size(), 0u);
+}
+
 TEST(BroadPhase, KnowsPairsThatAreListedTwiceAndShapesInNone) {
   World world = row_of_balls(4, Vec3::UnitX(), Vec3::Zero());
   world.pairs = {make_pair_of(world.tree, world.shapes, 2, 1),

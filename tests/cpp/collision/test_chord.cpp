@@ -149,6 +149,38 @@ TEST(FastBody, IsCaughtWhereItTurnsManyTimes) {
   EXPECT_NEAR(hit.s, angle / (40 * std::numbers::pi), 1e-15);
 }
 
+// Seen from a plate that turns, a body that passes in a straight line is bent towards it by
+// 2 x turn x speed: neither moves fast across the gap at first.
+TEST(TurningTarget, MeetsABodyThatFliesPast) {
+  Tree tree;
+  add_joint(tree, -1, {Joint::Kind::prismatic, 0},
+            {rotation_z_to(Vec3::UnitX()), 0.5 * Vec3::UnitY()}, {0, 1, 0});
+  add_joint(tree, -1, {}, {}, {1, 1, 0});
+  const std::vector<PlacedShape> shapes = {place(Sphere{0.01}, 0, {}),
+                                           place(Box{Vec3(60, 0.01, 1)}, 1, {})};
+  const Scene scene{tree, shapes, make_pair_of(tree, shapes, 0, 1), VecX::Zero(2)};
+  Chord chord{scene, VecX::Zero(2), Eigen::Vector2d(100, 0.5), 0};
+  const double root = first_root(chord, 100);
+  EXPECT_NEAR(root, 0.1, 0.01);  // 0.5 - 50 s^2 = 0.02
+  const ChordHit hit = chord.hit();
+  EXPECT_EQ(hit.outcome, Outcome::hit);
+  EXPECT_NEAR(hit.s, root, 1e-14);  // phi's rounding of 1e-12 (100 m) at a slope of 10
+}
+
+// A small cube turns below a large ball at rest: its face tilts into the ball, whose centre is far.
+TEST(TurningTarget, MeetsALargeBall) {
+  Tree tree;
+  add_joint(tree, -1, {}, {rotation_z_to(Vec3::UnitY()), Vec3::Zero()}, {0, 1, 0});
+  const double distance = 10.1 + 3e-4;
+  const std::vector<PlacedShape> shapes = {
+      place(Sphere{10}, -1, {Mat3::Identity(), distance * Vec3::UnitZ()}),
+      place(Box{Vec3::Constant(0.1)}, 0, {})};
+  const Scene scene{tree, shapes, make_pair_of(tree, shapes, 0, 1), VecX::Zero(1)};
+  const ChordHit hit = Chord{scene, VecX::Zero(1), VecX::Ones(1), 0}.hit();
+  EXPECT_EQ(hit.outcome, Outcome::hit);
+  EXPECT_NEAR(hit.s, std::acos(10.1 / distance), 1e-12);  // phi's rounding 4e-14 at a slope of 0.08
+}
+
 /// A pendulum of length 1 about y at height `pivot` over the floor, radius 0.1; 0 is straight down.
 Scene over_floor(double pivot) {
   Tree tree;
