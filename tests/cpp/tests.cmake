@@ -22,9 +22,18 @@ set(SALTUS_TEST_collision
   collision/test_no_allocation.cpp
 )
 set(SALTUS_TEST_model
+  model/test_assembly.cpp
+  model/test_build_errors.cpp
+  model/test_builder_errors.cpp
   model/test_golden.cpp
+  model/test_model.cpp
+  model/test_pairs.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_cradle.cpp
+  variational/test_no_allocation.cpp
+  variational/test_resolve_impact.cpp
+  variational/test_stepper.cpp
 )
 set(SALTUS_TEST_rollout
 )
