@@ -38,4 +38,12 @@ set(SALTUS_TEST_variational
 set(SALTUS_TEST_rollout
 )
 set(SALTUS_TEST_urdf
+  urdf/test_fuzz.cpp
+  urdf/test_joints.cpp
+  urdf/test_links.cpp
+  urdf/test_model_files.cpp
+  urdf/test_number_errors.cpp
+  urdf/test_shapes.cpp
+  urdf/test_sources.cpp
+  urdf/test_structure_errors.cpp
 )

@@ -1,5 +1,7 @@
 #include "urdf/document.hpp"
 
+#include <algorithm>
+
 namespace saltus::reader {
 namespace {
 
@@ -21,6 +23,8 @@ std::string explain(const tinyxml2::XMLDocument& xml) {
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested more than " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) +
              " deep, the most that is read";
+    case tinyxml2::XML_ERROR_PARSING:
+      return "it ends before all elements are closed";
     default:
       return "it cannot be parsed";
   }
@@ -31,6 +35,14 @@ std::string culprit(const tinyxml2::XMLDocument& xml) {
   const std::string text = xml.ErrorStr() == nullptr ? "" : xml.ErrorStr();
   const std::size_t found = text.rfind("name=");
   return found == std::string::npos ? "" : " (<" + text.substr(found + 5) + ">)";
+}
+
+/// The last line where the text ends too early; tinyxml2 tells the first then, or none.
+std::ptrdiff_t error_line(const tinyxml2::XMLDocument& xml, const std::string& text) {
+  const bool ended = xml.ErrorID() == tinyxml2::XML_ERROR_PARSING;
+  if (!ended && xml.ErrorLineNum() > 0) return xml.ErrorLineNum();
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(last), '\n');
 }
 
 }  // namespace
@@ -49,8 +61,8 @@ std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 Document::Document(const Source& source) : label_(source.label) {
   if (xml_.Parse(source.text.data(), source.text.size()) != tinyxml2::XML_SUCCESS) {
-    const std::string line = xml_.ErrorLineNum() > 0 ? std::to_string(xml_.ErrorLineNum()) : "1";
-    throw ModelError(label_ + ":" + line + ": not XML: " + explain(xml_) + culprit(xml_));
+    throw ModelError(label_ + ":" + std::to_string(error_line(xml_, source.text)) +
+                     ": not XML: " + explain(xml_) + culprit(xml_));
   }
   find_robot();
   index(*robot_);
