@@ -36,6 +36,7 @@ set(SALTUS_TEST_variational
   variational/test_stepper.cpp
 )
 set(SALTUS_TEST_rollout
+  rollout/test_simulate.cpp
 )
 set(SALTUS_TEST_urdf
   urdf/test_fuzz.cpp

@@ -11,19 +11,31 @@ using SmallMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Co
                                most_constraints, most_constraints>;
 using SmallVec = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_constraints, 1>;
 
+/// What a body adds to the size of the terms that its subtree's H and g are sums of. Products of
+/// norms, so that what cancels inside a cross product counts too. Needs first_pass, no more.
+ArcScratch::TermSize body_terms(const Vec3& gravity, const JointMotion& m, const Inertia& I) {
+  const double w = angular(m.V).norm(), v = linear(m.V).norm(), h = I.h.norm();
+  const double g = gravity.norm();
+  return {I.I.trace() * w + h * v, I.mass * v + h * w, h * g, I.mass * g};
+}
+
 // The residual is a difference of rounded sums; this is the size of their terms, per coordinate,
 // so that `converged` means the same for a spinning grain as for a sliding block.
 void set_scale(const ModelData& model, double tau, ArcScratch& s) {
-  for (int i = 0; i < model.tree.joints(); ++i) {
-    const JointMotion& m = s.kin.joint[i];
-    const JointComposite& c = s.comp.joint[i];
-    const Vec6 S = m.S.cwiseAbs(), H = c.H.cwiseAbs();
-    s.joint_scale[i] = std::abs(model.tree.drive[i].multiplier) *
-                       (S.dot(H) + tau / 2 * (m.W.cwiseAbs().dot(H) + S.dot(c.g.cwiseAbs())));
+  const Tree& tree = model.tree;
+  for (int i = 0; i < tree.joints(); ++i) {
+    s.terms[i] = body_terms(model.mass.gravity, s.kin.joint[i], s.comp.joint[i].Ic);
   }
   s.scale.setZero();
-  for (int i = 0; i < model.tree.joints(); ++i) {
-    s.scale[model.tree.drive[i].coordinate] += s.joint_scale[i];
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    const JointMotion& m = s.kin.joint[i];
+    const ArcScratch::TermSize& t = s.terms[i];
+    const double S_w = angular(m.S).norm(), S_v = linear(m.S).norm();
+    const double W_w = angular(m.W).norm(), W_v = linear(m.W).norm();
+    const double size = S_w * t.H_w + S_v * t.H_v +
+                        tau / 2 * (W_w * t.H_w + W_v * t.H_v + S_w * t.g_w + S_v * t.g_v);
+    s.scale[tree.drive[i].coordinate] += std::abs(tree.drive[i].multiplier) * size;
+    if (tree.parent[i] >= 0) s.terms[tree.parent[i]] += t;
   }
 }
 
@@ -107,8 +119,8 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
       size = std::max(size, std::abs(phi - c.target) / pair.touch * 1e-12);
     } else {
       const double energy = discrete_energy(model, v, s);
-      size = std::max(size, std::abs(energy - c.target) /
-                                (std::abs(c.target) + std::abs(v.dot(s.L_v))));
+      size = std::max(size,
+                      std::abs(energy - c.target) / (std::abs(c.target) + std::abs(v.dot(s.L_v))));
     }
   }
   return size;
@@ -147,7 +159,8 @@ ArcScratch::ArcScratch(const ModelData& model)
     : kin(model.tree), kin_end(model.tree), comp(model.tree), J(model.tree) {
   const int n = model.tree.coordinates, joints = model.tree.joints();
   for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv}) each->setZero(n);
-  for (VecX* each : {&v_joint, &joint_scale}) each->setZero(joints);
+  v_joint.setZero(joints);
+  terms.resize(model.tree.parent.size());
 }
 
 bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,

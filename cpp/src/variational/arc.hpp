@@ -30,11 +30,11 @@ inline constexpr int most_constraints = 32;  ///< of one arc; bounds the dense S
 struct ArcConstraint {
   enum class Kind { hold, launch };
   Kind kind = Kind::hold;
-  int pair = -1;          ///< index in model.pairs (hold)
-  double target = 0;      ///< [m] or [J]
-  double lambda = 0;      ///< [N s] guess in, solution out
-  VecX n;                 ///< (n_q) direction of the force
-  VecX row, column;       ///< (n_q) scratch: dc/dv and J^-1 n
+  int pair = -1;      ///< index in model.pairs (hold)
+  double target = 0;  ///< [m] or [J]
+  double lambda = 0;  ///< [N s] guess in, solution out
+  VecX n;             ///< (n_q) direction of the force
+  VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
 };
 
 struct ArcProblem {
@@ -46,10 +46,10 @@ struct ArcProblem {
 
 struct Arc {
   double tau = 0;
-  VecX v;                ///< guess in, solution out
+  VecX v;  ///< guess in, solution out
   VecX q_end, p_end;
-  double energy = 0;     ///< [J] E_d
-  double residual = 0;   ///< scaled by the size of the terms it is a difference of
+  double energy = 0;    ///< [J] E_d
+  double residual = 0;  ///< scaled by the size of the terms it is a difference of
   int iterations = 0;
 };
 
@@ -60,7 +60,19 @@ struct ArcScratch {
   Composite comp;
   ArcMatrix J;
   SecondPartialsTimes times;
-  VecX x, L_v, L_q, r, scale, dv, v_joint, joint_scale;
+  VecX x, L_v, L_q, r, scale, dv, v_joint;
+
+  /// Sizes of the terms in a subtree's momentum H and gravity wrench g, angular and linear.
+  struct TermSize {
+    double H_w, H_v, g_w, g_v;
+    void operator+=(const TermSize& other) {
+      H_w += other.H_w;
+      H_v += other.H_v;
+      g_w += other.g_w;
+      g_v += other.g_v;
+    }
+  };
+  std::vector<TermSize> terms;  ///< (n)
 };
 
 /// @return false when it does not converge within options.max_iterations; `arc` then holds the

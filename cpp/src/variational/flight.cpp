@@ -20,8 +20,7 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int pair, do
 /// Holds a resting pair closed from now on; its gap is brought to exactly 0.
 bool hold(int pair, Node& node, Flight& f) {
   if (f.active == most_constraints) return false;
-  next_constraint(f, ArcConstraint::Kind::hold, pair, 0).n =
-      node.contacts[node.contact_of[pair]].n;
+  next_constraint(f, ArcConstraint::Kind::hold, pair, 0).n = node.contacts[node.contact_of[pair]].n;
   node.held[pair] = 1;
   return true;
 }
@@ -111,8 +110,16 @@ bool is_hop(const Node& node, int pair) {
   return contact >= 0 && node.contacts[contact].n.dot(node.dq) <= 0;
 }
 
-void first_guess(double left, const Node& node, Flight& f) {
-  if (!f.history.extrapolate(node.t + left / 2, f.arc.v)) f.arc.v = f.start_v;
+/// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
+/// from the velocity at the node.
+bool solve_first_arc(const ModelData& model, const StepOptions& options, double left,
+                     const Node& node, Flight& f) {
+  if (f.history.extrapolate(node.t + left / 2, f.arc.v)) {
+    if (solve_flight_arc(model, options, left, node, f)) return true;
+    for (int i = 0; i < f.active; ++i) f.constraints[i].lambda = 0;
+  }
+  f.arc.v = node.v;
+  return solve_flight_arc(model, options, left, node, f);
 }
 
 /// Asks for E_d of the arc that hit, unless the last strong impulse is too weak to match it
@@ -155,10 +162,9 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
                   Flight& f, bool& fallback) {
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
-  f.start_v = node.v;
-  first_guess(left, node, f);
   f.active = 0;
   if (left > 0 && !start_constraints(node, f)) return FlightOutcome::too_many_contacts;
+  if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
   double tau = left;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
   const int most_turns = 10 + 4 * static_cast<int>(model.pairs.size());
@@ -174,7 +180,9 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     f.start_v = f.arc.v;
     switch (find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f)) {
       case ImpactTime::found:
-        if (hop) f.passed[hit.pair] = 1;  // both ends of its chord touch: nothing more to find
+        // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far
+        // from the origin the chord tells gaps apart no better than their rounding).
+        if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
         tau = f.arc.tau;
         break;
       case ImpactTime::missed:

@@ -21,18 +21,18 @@ namespace saltus {
 struct Flight {
   explicit Flight(const ModelData& model);
 
-  Arc arc;                                  ///< the result
+  Arc arc;  ///< the result
   GuessHistory history;
-  int iterations = 0;                       ///< Newton iterations of all arcs tried
+  int iterations = 0;  ///< Newton iterations of all arcs tried
 
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  std::vector<ArcConstraint> constraints;   ///< (most_constraints) a pool; `active` are in use
+  std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
   int active = 0;
   VecX rate, start_v, n;
-  std::vector<char> passed;                 ///< (pairs) no impact to be found in this flight
-  std::vector<char> flips;                  ///< (pairs) how often held and released in this flight
+  std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
+  std::vector<char> flips;   ///< (pairs) how often held and released in this flight
 };
 
 enum class FlightOutcome { arrived, not_converged, too_many_contacts, no_progress };

@@ -30,8 +30,8 @@ GapAtEnd gap_at_end(const ModelData& model, int index, Flight& f) {
 }
 
 struct Bracket {
-  double lo, hi;       ///< g(lo) > 0
-  bool hi_is_closed;   ///< g(hi) < 0 is known
+  double lo, hi;      ///< g(lo) > 0
+  bool hi_is_closed;  ///< g(hi) < 0 is known
 };
 
 /// Newton's next tau, kept inside the bracket.

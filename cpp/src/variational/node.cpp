@@ -19,12 +19,20 @@ bool set_velocity_at_node(const ModelData& model, Node& node) {
   return node.v.allFinite();
 }
 
+/// As many as can touch in a plain scene; a pool that is too small grows once.
+constexpr std::size_t contacts_reserved = 64;
+constexpr std::size_t impulses_reserved = 1024;
+
+Contact fresh_contact(Eigen::Index n_q) {
+  Contact fresh;
+  fresh.n.setZero(n_q);
+  fresh.column.setZero(n_q);
+  return fresh;
+}
+
 Contact& next_in_pool(Node& node) {
   if (node.touching == static_cast<int>(node.contacts.size())) {
-    Contact fresh;
-    fresh.n.setZero(node.q.size());
-    fresh.column.setZero(node.q.size());
-    node.contacts.push_back(std::move(fresh));
+    node.contacts.push_back(fresh_contact(node.q.size()));
   }
   return node.contacts[node.touching];
 }
@@ -109,6 +117,13 @@ Node::Node(const ModelData& model)
   const int n = model.tree.coordinates;
   for (VecX* x : {&q, &p, &v, &dq, &launch.n}) x->setZero(n);
   for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
+  const std::size_t reserved = std::min(model.pairs.size(), contacts_reserved);
+  contacts.assign(reserved, fresh_contact(n));
+  G.reserve(reserved * reserved);
+  settled.reserve(reserved);
+  impulses.reserve(impulses_reserved);
+  u.setZero(static_cast<Eigen::Index>(reserved));
+  rest.setZero(static_cast<Eigen::Index>(reserved));
 }
 
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {
@@ -184,8 +199,12 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
   cascade_options.max_impulses = options.max_impulses;
   if (!cascade(G, node.u.head(m), node.rest.head(m), cascade_options, node.impulses)) return false;
 
-  Impact impact{node.t, static_cast<int>(report.impulses.size()),
-                static_cast<int>(node.impulses.size()), m, ImpactLaw::nodal_energy, false};
+  Impact impact{node.t,
+                static_cast<int>(report.impulses.size()),
+                static_cast<int>(node.impulses.size()),
+                m,
+                ImpactLaw::nodal_energy,
+                false};
   double strongest = 0;
   for (const Impulse& impulse : node.impulses) {
     // lambda u / 2 is the normal kinetic energy u^2 / 2G four times over: lambda = -2 u / G

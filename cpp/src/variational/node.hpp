@@ -19,20 +19,20 @@ namespace saltus {
 struct Contact {
   enum class Motion { approaches, rests, leaves };
   int pair = -1;
-  double phi = 0;          ///< [m]
-  double u = 0;            ///< [m/s] gap rate
-  double epsilon_u = 0;    ///< [m/s]
+  double phi = 0;        ///< [m]
+  double u = 0;          ///< [m/s] gap rate
+  double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
-  VecX n;                  ///< (n_q) phi_q
-  VecX column;             ///< (n_q) M^-1 n, written by the impact
+  VecX n;       ///< (n_q) phi_q
+  VecX column;  ///< (n_q) M^-1 n, written by the impact
 };
 
 /// What discrete_energy asks of the next arc: E_d = energy, by a last impulse along n.
 struct Launch {
   bool pending = false;
-  double energy = 0;          ///< [J] E_d of the arc that hit
-  double normal_energy = 0;   ///< [J] u^2 / 2G of the last strong impulse
-  VecX n;                     ///< (n_q)
+  double energy = 0;         ///< [J] E_d of the arc that hit
+  double normal_energy = 0;  ///< [J] u^2 / 2G of the last strong impulse
+  VecX n;                    ///< (n_q)
 };
 
 struct Node {
@@ -42,8 +42,8 @@ struct Node {
   VecX q, p, v;                   ///< v = M^-1 p, written by find_contacts where pairs touch
   std::vector<Contact> contacts;  ///< a pool; the first `touching` are valid
   int touching = 0;
-  std::vector<int> contact_of;    ///< (pairs) index in contacts, or -1
-  std::vector<char> held;         ///< (pairs) kept closed by a force in the last arc
+  std::vector<int> contact_of;  ///< (pairs) index in contacts, or -1
+  std::vector<char> held;       ///< (pairs) kept closed by a force in the last arc
   Launch launch;
 
   // scratch
@@ -52,9 +52,9 @@ struct Node {
   ArcMatrix M;
   BroadPhase broad;
   VecX dq, u, rest;
-  std::vector<double> G;          ///< grows only; (touching, touching)
+  std::vector<double> G;  ///< grows only; (touching, touching)
   std::vector<Impulse> impulses;
-  std::vector<double> settled;    ///< impulses of settle_held_contacts
+  std::vector<double> settled;  ///< impulses of settle_held_contacts
   double total_mass = 0;
 };
 

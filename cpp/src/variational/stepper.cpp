@@ -15,6 +15,8 @@ struct Stepper::Impl {
         flight(*model) {
     last.q.setZero(model.n_q());
     last.p.setZero(model.n_q());
+    report.impacts.reserve(64);
+    report.impulses.reserve(1024);
   }
 
   void step(State& state);
@@ -33,7 +35,7 @@ struct Stepper::Impl {
   Node node;
   Flight flight;
   StepReport report;
-  State last;               // what the last step returned: the node still holds it
+  State last;  // what the last step returned: the node still holds it
   bool last_is_valid = false;
 };
 
@@ -196,10 +198,11 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
            << " s keep closing and opening within one arc: " << contact_list();
       break;
     default:
-      text << "DEL residual " << arc.residual << " after " << arc.iterations
-           << " iterations at t = " << node.t << " s, arc of " << arc.tau
-           << " s; a smaller h helps where the motion is fast (h = " << options.h
-           << " s), and a singular configuration (pitch of a free joint at 90 deg) does not go away";
+      text
+          << "DEL residual " << arc.residual << " after " << arc.iterations
+          << " iterations at t = " << node.t << " s, arc of " << arc.tau
+          << " s; a smaller h helps where the motion is fast (h = " << options.h
+          << " s), and a singular configuration (pitch of a free joint at 90 deg) does not go away";
   }
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }

@@ -1,30 +1,15 @@
 // What the stepper calls in every step must not allocate.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "collision/random_scene.hpp"
+#include "count_allocations.hpp"
 #include "saltus/collision/broad_phase.hpp"
 #include "saltus/collision/chord.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Replaces the global operator of the whole test program, the library's calls included.
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace saltus {
 namespace {
 
+using test::allocations;
 using testing_scene::make_pair_of;
 using testing_scene::place;
 using testing_scene::Random;

@@ -9,11 +9,11 @@
 namespace saltus {
 
 struct SimulateOptions {
-  double h = 0.01;                          ///< [s]
+  double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
   bool collisions = true;
-  int record_every = 1;                     ///< steps between recorded rows
-  StepOptions step = {};                    ///< bounds and tolerances; h, law, collisions above win
+  int record_every = 1;   ///< steps between recorded rows
+  StepOptions step = {};  ///< bounds and tolerances; h, law, collisions above win
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.
   std::function<bool(double)> progress = {};

@@ -12,15 +12,15 @@ namespace saltus {
 struct SALTUS_EXPORT Trajectory {
   Model model;
   StepOptions options;
-  VecX t;                         ///< (rows) [s]
-  MatX q, v, p;                   ///< (rows, n_q)
-  VecX kinetic, potential;        ///< (rows) [J]
-  VecX shadow;                    ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
-  std::vector<Impact> impacts;    ///< in order of time
+  VecX t;                       ///< (rows) [s]
+  MatX q, v, p;                 ///< (rows, n_q)
+  VecX kinetic, potential;      ///< (rows) [J]
+  VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
+  std::vector<Impact> impacts;  ///< in order of time
   std::vector<Impulse> impulses;
-  long iterations = 0;            ///< Newton iterations in all
-  double residual = 0;            ///< [largest momentum] the worst of any step
-  bool complete = false;          ///< false: stopped on request before `duration`
+  long iterations = 0;    ///< Newton iterations in all
+  double residual = 0;    ///< [largest momentum] the worst of any step
+  bool complete = false;  ///< false: stopped on request before `duration`
 
   VecX total() const { return kinetic + potential; }
   /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).

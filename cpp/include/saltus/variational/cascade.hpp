@@ -36,8 +36,8 @@ SALTUS_EXPORT bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, 
                            const CascadeOptions& options, std::vector<Impulse>& impulses);
 
 struct ImpactOutcome {
-  VecX v;                        ///< (n) velocity after
-  std::vector<Impulse> impulses; ///< `pair` is the row of N
+  VecX v;                         ///< (n) velocity after
+  std::vector<Impulse> impulses;  ///< `pair` is the row of N
 };
 
 /// The continuous-time problem of the paper's section II, for any mass matrix and normals.

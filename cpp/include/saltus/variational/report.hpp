@@ -15,8 +15,8 @@ struct Impulse {
 
 /// All impulses at one instant.
 struct Impact {
-  double t;       ///< [s]
-  int first;      ///< its impulses are impulses[first, first + count), in order
+  double t;   ///< [s]
+  int first;  ///< its impulses are impulses[first, first + count), in order
   int count;
   int contacts;   ///< pairs that touched
   ImpactLaw law;  ///< the law that was used
@@ -25,10 +25,10 @@ struct Impact {
 
 /// Written by Stepper; valid until its next step.
 struct StepReport {
-  int iterations = 0;    ///< Newton iterations, over all arcs tried
-  int arcs = 0;          ///< arcs that the step is made of; 1 without impacts
-  int sustained = 0;     ///< arcs' contacts that were held closed by a force
-  double residual = 0;   ///< [largest momentum] of the worst arc
+  int iterations = 0;   ///< Newton iterations, over all arcs tried
+  int arcs = 0;         ///< arcs that the step is made of; 1 without impacts
+  int sustained = 0;    ///< arcs' contacts that were held closed by a force
+  double residual = 0;  ///< [largest momentum] of the worst arc
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
 };
