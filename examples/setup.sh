@@ -28,6 +28,7 @@ if ! machine_is_ready; then
   if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
     echo "setup: apt-get installs $packages" >&2
     apt-get update -qq
+    # shellcheck disable=SC2086  # several words are meant
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 $packages >/dev/null
   fi
   if ! machine_is_ready; then
@@ -38,7 +39,7 @@ if ! machine_is_ready; then
 fi
 
 .venv/bin/python -c '' 2>/dev/null || python3 -m venv --clear .venv
-pip() { .venv/bin/python -m pip install -q --disable-pip-version-check "$@"; }
+pip() { .venv/bin/python -m pip --disable-pip-version-check -q "$@"; }
 
 # The build's own packages go into .venv, and pip builds without isolation: an isolated build gets new paths each
 # time, so that every edit would compile everything.
@@ -47,6 +48,9 @@ command -v cmake >/dev/null && cmake -P cpp/cmake/check_version.cmake 2>/dev/nul
 command -v ninja >/dev/null || tools="$tools ninja"
 echo "setup: installing into .venv and compiling; the first time takes a few minutes" >&2
 .venv/bin/python cpp/cmake/build_requires.py >.venv/build-requires.txt
-pip -r .venv/build-requires.txt $tools
-pip --no-build-isolation ".[$extras]"
+# shellcheck disable=SC2086  # several words are meant
+pip install -r .venv/build-requires.txt $tools
+# scikit-build-core imports packages that offer a CMake prefix, ours among them: a broken one could not be replaced.
+pip uninstall -y saltus 2>/dev/null
+pip install --no-build-isolation ".[$extras]"
 echo "$sources" >"$stamp"
