@@ -29,7 +29,8 @@ struct PlacedShape {
   std::string name;  ///< unique: the link's name, "#k" added where a link has several shapes
 };
 
-/// Two shapes whose gap is watched; a is the sphere where only one is.
+/// Two shapes whose gap is watched; a must be a sphere (its centre is P of the Hessian and of the
+/// certified advance).
 struct Pair {
   int a, b;                       ///< indices of shapes
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
