@@ -1,0 +1,66 @@
+"""Every example runs in a folder of its own and prints the numbers that its docstring predicts."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from conftest import ROOT
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+
+PREDICTED = {
+    "bouncing_ball": ["11 impacts, the last at 9.481996 s"],
+    "cradle_counts": [
+        "3 balls, 1 up: 1 left, 2 still, 2 impulses",
+        "3 balls, 2 up: 2 left, 1 still, 2 impulses",
+        "5 balls, 1 up: 1 left, 4 still, 4 impulses",
+        "5 balls, 2 up: 2 left, 3 still, 6 impulses",
+        "5 balls, 3 up: 3 left, 2 still, 6 impulses",
+    ],
+    "derivatives": ["L_vv[1, 1] = 1.001 kg m^2"],
+    "fig3": ["the right ball reaches 0.9356 m/s"],
+    "hello_cradle": ["first impact at 0.50460 s"],
+    "impulses_at_one_instant": [
+        "leave as [-2.0, 0.0, 1.0, 1.0, 3.0], 7 impulses",
+        "digits of pi: 3 31 314 3141",
+    ],
+    "own_robot": [
+        'names child link "wieght", which does not exist; links are shaft, weight',
+        "height after 1 s: -4.905000 m",
+    ],
+    "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
+}
+WRITTEN = {"fig3": ["fig3.png"]}
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_example_prints_what_it_predicts(example, tmp_path):
+    done = subprocess.run(
+        [sys.executable, example],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=tmp_path,
+        env={**os.environ, "MPLBACKEND": "Agg"},
+    )
+    assert done.stderr == ""
+    for line in PREDICTED[example.stem]:
+        assert line in done.stdout
+    assert sorted(p.name for p in tmp_path.iterdir()) == WRITTEN.get(example.stem, [])
+
+
+def test_differences_of_the_partials_are_small(tmp_path):
+    command = [sys.executable, ROOT / "examples" / "derivatives.py"]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    errors = [float(line.rpartition(" ")[2]) for line in printed.splitlines() if "differs" in line]
+    assert len(errors) == 5
+    assert max(errors) < 1e-8  # step 1e-5: 1e-10 by truncation, 1e-10 by rounding
+
+
+def test_examples_are_short():
+    for example in EXAMPLES:
+        assert len(example.read_text().splitlines()) <= 40, example.name
