@@ -52,4 +52,15 @@ void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
   }
 }
 
+void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    comp.joint[i].Ic = world_inertia(mass.body[i], kin.joint[i]);
+  }
+  for (int i = tree.joints() - 1; i >= 0; --i) {
+    JointComposite& c = comp.joint[i];
+    c.U = c.Ic * kin.joint[i].S;
+    if (tree.parent[i] >= 0) comp.joint[tree.parent[i]].Ic += c.Ic;
+  }
+}
+
 }  // namespace saltus

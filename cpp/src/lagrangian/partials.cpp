@@ -53,9 +53,7 @@ MatX mass_matrix(const Tree& tree, const MassModel& mass, const VecRef& q) {
   Kinematics kin(tree);
   Composite comp(tree);
   set_configuration(tree, q, kin);
-  set_velocity(tree, VecX::Zero(tree.coordinates), kin);
-  first_pass(tree, mass, kin, comp);
-  second_pass(tree, mass, kin, comp);
+  mass_pass(tree, mass, kin, comp);
   MatX M = MatX::Zero(tree.coordinates, tree.coordinates);
   add_dense(tree, kin, comp, 0, M);
   return M;

@@ -25,19 +25,6 @@ int index_of(const Items& items, const std::string& kind, const std::string& nam
                    kind, name);
 }
 
-/// Kinematics and composites at one (q, v), on the heap: for the dense interface only.
-struct Evaluation {
-  Evaluation(const ModelData& model, const VecRef& q, const VecRef& v)
-      : kin(model.tree), comp(model.tree) {
-    set_configuration(model.tree, q, kin);
-    set_velocity(model.tree, v, kin);
-    first_pass(model.tree, model.mass, kin, comp);
-    second_pass(model.tree, model.mass, kin, comp);
-  }
-  Kinematics kin;
-  Composite comp;
-};
-
 VecX from_names(const Model& model, const std::map<std::string, double>& values) {
   VecX x = VecX::Zero(model.n_q());
   for (const auto& [name, value] : values) x[model.coordinate(name)] = value;
@@ -94,10 +81,13 @@ State Model::state(const VecRef& q, const VecRef& v, double t) const {
 VecX Model::velocity(const State& state) const {
   check_vector(state.q, n_q(), "state.q");
   check_vector(state.p, n_q(), "state.p");
-  const Evaluation at(*data_, state.q, VecX::Zero(n_q()));
+  Kinematics kin(data_->tree);
+  Composite comp(data_->tree);
   ArcMatrix M(data_->tree);
+  set_configuration(data_->tree, state.q, kin);
+  mass_pass(data_->tree, data_->mass, kin, comp);
   VecX v = state.p;
-  if (!factorize(data_->tree, at.kin, at.comp, 0, M)) {
+  if (!factorize(data_->tree, kin, comp, 0, M)) {
     throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
   }
   solve(data_->tree, M, v);

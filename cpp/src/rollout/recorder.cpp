@@ -16,9 +16,7 @@ EnergyMeter::EnergyMeter(const ModelData& model)
 // kappa = a^T M a - v^T L_qq v with M a = L_q - L_vq v (theory, section 5); a^T M a = a . force.
 void measure(const ModelData& model, const State& state, double h, EnergyMeter& m) {
   set_configuration(model.tree, state.q, m.kin);
-  set_velocity(model.tree, m.v, m.kin);  // any: M depends on q alone
-  first_pass(model.tree, model.mass, m.kin, m.comp);
-  second_pass(model.tree, model.mass, m.kin, m.comp);
+  mass_pass(model.tree, model.mass, m.kin, m.comp);
   if (!factorize(model.tree, m.kin, m.comp, 0, m.M)) {
     throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
   }

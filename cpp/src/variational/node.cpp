@@ -10,9 +10,7 @@ namespace saltus {
 namespace {
 
 bool set_velocity_at_node(const ModelData& model, Node& node) {
-  set_velocity(model.tree, node.v, node.kin);  // any: M depends on q alone
-  first_pass(model.tree, model.mass, node.kin, node.comp);
-  second_pass(model.tree, model.mass, node.kin, node.comp);
+  mass_pass(model.tree, model.mass, node.kin, node.comp);
   if (!factorize(model.tree, node.kin, node.comp, 0, node.M)) return false;
   node.v = node.p;
   solve(model.tree, node.M, node.v);

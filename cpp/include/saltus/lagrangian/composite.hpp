@@ -40,11 +40,12 @@ struct MassModel {
 
 /// What one subtree contributes.
 struct JointComposite {
-  Inertia Ic;  ///< about O: own body after first_pass, whole subtree after second_pass
-  Vec6 H;      ///< momentum wrench of the subtree         written by first_pass
-  Vec6 g;      ///< gravity's wrench on the subtree        written by first_pass
-  Vec6 U, F;   ///< see above                              written by second_pass
-  Vec3 G;      ///< angular part of G_i                    written by second_pass
+  Inertia Ic;             ///< about O: own body after first_pass, whole subtree after second_pass
+  Vec6 H = Vec6::Zero();  ///< momentum wrench of the subtree         written by first_pass
+  Vec6 g = Vec6::Zero();  ///< gravity's wrench on the subtree        written by first_pass
+  Vec6 U = Vec6::Zero(),
+       F = Vec6::Zero();  ///< see above                              written by second_pass
+  Vec3 G = Vec3::Zero();  ///< angular part of G_i                    written by second_pass
 };
 
 struct Composite {
@@ -64,5 +65,10 @@ SALTUS_EXPORT void first_pass(const Tree& tree, const MassModel& mass, const Kin
 /// Generators of the second partials. Needs first_pass (once after each).
 SALTUS_EXPORT void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
                                Composite& comp);
+
+/// What the mass matrix alone needs: Ic of the subtrees and U. Needs set_configuration, no
+/// velocity; factorize with tau = 0 and add_dense with tau = 0 may follow, nothing else.
+SALTUS_EXPORT void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
+                             Composite& comp);
 
 }  // namespace saltus

@@ -15,11 +15,11 @@ namespace saltus {
 
 /// Pose and motion of one joint frame.
 struct JointMotion {
-  Vec6 S;  ///< unit screw about O                     written by set_configuration
-  Vec6 V;  ///< twist of the joint frame about O       written by set_velocity
-  Vec6 W;  ///< V x S                                  written by set_velocity
-  Mat3 R;  ///< R_WJ                                   written by set_configuration
-  Vec3 p;  ///< [m] origin of J from O, world axes     written by set_configuration
+  Vec6 S = Vec6::Zero();  ///< unit screw about O                     written by set_configuration
+  Vec6 V = Vec6::Zero();  ///< twist of the joint frame about O       written by set_velocity
+  Vec6 W = Vec6::Zero();  ///< V x S                                  written by set_velocity
+  Mat3 R;                 ///< R_WJ                                   written by set_configuration
+  Vec3 p;                 ///< [m] origin of J from O, world axes     written by set_configuration
 };
 
 struct Kinematics {
