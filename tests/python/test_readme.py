@@ -1,0 +1,100 @@
+"""README and the manual: their code is that of the files and runs, their links lead somewhere."""
+
+from __future__ import annotations
+
+import doctest
+import re
+import subprocess
+import sys
+
+import pytest
+
+import saltus
+from conftest import ROOT
+from saltus.__main__ import main
+
+README = ROOT / "README.md"
+PAGES = [README, *sorted((ROOT / "python" / "docs").glob("*.md"))]
+
+
+def by_name(path):
+    return path.stem
+
+
+def blocks(path, language: str) -> list[str]:
+    text = path.read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize(
+    ("name", "language"), [("hello_cradle.py", "python"), ("hello_cradle.cpp", "cpp")]
+)
+def test_hello_is_the_file(name, language):
+    assert (ROOT / "examples" / name).read_text() in blocks(README, language)
+
+
+def test_python_of_readme_runs(tmp_path):
+    (_, code) = blocks(README, "python")
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stderr == ""
+    assert done.stdout.splitlines()[-1] == "[0. 1.]"  # as its comment says
+
+
+def test_output_of_readme_is_what_is_printed(capsys):
+    file = str(ROOT / "urdf" / "newtons_cradle_3.urdf")
+    assert main(["simulate", file, "--set", "swing_0=0.3", "--duration", "10", "--h", "0.01"]) == 0
+    lines = capsys.readouterr().out.splitlines()[-3:]
+    assert len(lines) == 3
+    readme = README.read_text(encoding="utf-8")
+    for line in lines:
+        assert f"    {line}\n" in readme
+
+
+def test_tests_named_in_readme_exist():
+    rows = re.findall(r"^\|.*\| `(\w+)` \|$", README.read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(rows) >= 10
+    sources = "".join(p.read_text() for p in (ROOT / "tests" / "cpp").rglob("test_*.cpp"))
+    for name in rows:
+        assert re.search(rf"TEST\w*\(\w+, {name}", sources), name
+
+
+@pytest.mark.parametrize("page", PAGES, ids=by_name)
+def test_links_lead_somewhere(page):
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text)
+    assert links, "a page nobody leaves"
+    for link in links:
+        if not link.startswith("https://"):
+            assert (page.parent / link).exists(), link
+
+
+class ShortNames(doctest.OutputChecker):
+    """The compiled part's exceptions are known to users by the package's name."""
+
+    def check_output(self, want: str, got: str, optionflags: int) -> bool:
+        return super().check_output(want, got.replace("saltus._core.", "saltus."), optionflags)
+
+
+@pytest.mark.parametrize("page", PAGES[1:], ids=by_name)
+def test_sessions_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    runner = doctest.DocTestRunner(ShortNames(), optionflags=doctest.ELLIPSIS)
+    text = page.read_text(encoding="utf-8")
+    session = doctest.DocTestParser().get_doctest(text, {}, page.stem, str(page), 0)
+    said: list[str] = []
+    runner.run(session, out=said.append)
+    assert not runner.failures, "".join(said)
+
+
+def test_urdf_of_the_manual_loads():
+    found = blocks(ROOT / "python" / "docs" / "urdf.md", "xml")
+    assert found
+    for text in found:
+        assert saltus.load_urdf(text).n_q > 0
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "urdf").glob("*.urdf")), ids=by_name)
+def test_info_knows_the_files_in_urdf(file, capsys):
+    assert main(["info", str(file)]) == 0
+    assert capsys.readouterr().out.startswith(f"{file.stem}: ")
