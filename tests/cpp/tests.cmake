@@ -11,6 +11,7 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_arc_matrix.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
+  lagrangian/test_no_allocation.cpp
   lagrangian/test_partials.cpp
 )
 set(SALTUS_TEST_collision
@@ -31,6 +32,7 @@ set(SALTUS_TEST_model
 )
 set(SALTUS_TEST_variational
   variational/test_cradle.cpp
+  variational/test_discrete_energy.cpp
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_stepper.cpp
