@@ -36,7 +36,8 @@ def cmake_dir(_: argparse.Namespace) -> int:
 def simulate(chosen: argparse.Namespace) -> int:
     """Run a model, print its impacts and energy error, write what is asked for."""
     for path in (chosen.out, chosen.plot):
-        _check_folder(path)
+        if path is not None:  # before a long run, not after it
+            files.check_folder(path)
     if chosen.plot:
         plots.new_figure(chosen.plot, (1, 1))  # says at once, not after the run, what is missing
     model = _load(chosen)
@@ -88,12 +89,6 @@ def _load(chosen: argparse.Namespace) -> saltus.Model:
     root = saltus.JointType.floating if chosen.floating else saltus.JointType.fixed
     # A path, whatever its name begins with: text is for programs.
     return saltus.load_urdf(str(Path(chosen.file).absolute()), root_joint=root)
-
-
-def _check_folder(path: str | None) -> None:
-    """Raise where a file cannot be written later: before a long run, not after it."""
-    if path is not None and not Path(path).absolute().parent.is_dir():
-        raise saltus.ModelError(f"{path}: there is no folder {Path(path).parent}")
 
 
 def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:

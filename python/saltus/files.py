@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 FORMAT = "saltus trajectory"
 VERSION = 1
 ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
-OPTIONS = ("h", "collisions", "max_iterations", "max_impacts", "max_impulses", "rest")
-OPTIONS += ("simultaneous",)
+BOUNDS = ("max_iterations", "max_impacts", "max_impulses", "rest", "simultaneous")
+OPTIONS = ("h", "collisions", *BOUNDS)
 NUMBERS = ("iterations", "residual", "complete", "energy_error")
 
 
@@ -34,6 +34,7 @@ def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
     """Write a trajectory; see `Trajectory.save`."""
     import h5py
 
+    check_folder(path)
     path = Path(path)
     # Under another name first: a failure leaves no half file, and an older one stays whole.
     part = path.with_name(path.name + ".part")
@@ -74,6 +75,15 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
             return _read(file, path, model)
     except (OSError, KeyError) as error:
         raise ModelError(f"{path} is no trajectory that saltus can read: {error}") from None
+
+
+def check_folder(path: str | os.PathLike[str]) -> None:
+    """Raise ModelError where no file can be written."""
+    path = Path(path)
+    if path.is_dir():
+        raise ModelError(f"{path} is a folder; a file is to be written")
+    if not path.absolute().parent.is_dir():
+        raise ModelError(f"{path}: there is no folder {path.parent}")
 
 
 def _write(run: Trajectory, file: h5py.File) -> None:

@@ -6,9 +6,10 @@ import os
 import warnings
 from collections.abc import Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import JointType, Model, read_urdf
+from saltus._core import JointType, Model, ModelError, read_urdf
 
 
 class ModelWarning(UserWarning):
@@ -50,6 +51,8 @@ def load_urdf(
     --------
     read_urdf : gives a `ModelBuilder`, to add to the model before it is built.
     """
+    if np.shape(gravity) != (3,):
+        raise ModelError(f"gravity = {gravity!r}; it has three components [m/s^2]")
     builder = read_urdf(
         path_or_text, gravity=gravity, package_dirs=package_dirs, root_joint=root_joint
     )

@@ -196,6 +196,12 @@ def test_urdf_options():
     assert model.gravity[2] == -1
 
 
+@pytest.mark.parametrize("gravity", [9.81, (0, -9.81), "down"])
+def test_gravity_has_three_components(gravity):
+    with pytest.raises(saltus.ModelError, match="three components"):
+        saltus.load_urdf(saltus.scenes.chain(1), gravity=gravity)
+
+
 def test_a_urdf_file_can_be_added_to():
     builder = saltus.read_urdf(saltus.scenes.cradle(2)).add_half_space("floor", (0, 0, 1), -1)
     assert "ball_0 ~ floor" in builder.build().pair_names

@@ -103,6 +103,13 @@ def test_files_that_are_none(tmp_path):
         saltus.load(tmp_path / "less.h5")
 
 
+def test_what_cannot_be_written_to(tmp_path):
+    with pytest.raises(saltus.ModelError, match="there is no folder"):
+        cradle_run().save(tmp_path / "nowhere" / "run.h5")
+    with pytest.raises(saltus.ModelError, match="is a folder"):
+        cradle_run().save(tmp_path)
+
+
 def test_a_failed_save_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "run.h5"
     cradle_run().save(path)

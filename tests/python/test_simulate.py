@@ -121,10 +121,21 @@ def test_what_cannot_be_run(options, message):
         saltus.simulate(cradle(), **options)
 
 
-def test_wrong_arguments_are_type_errors():
-    for options in ({}, {"duration": 1.0, "hh": 1}, {"duration": 1.0, "law": "nodal_energy"}):
-        with pytest.raises(TypeError):
-            saltus.simulate(cradle(), **options)
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "duration"),
+        ({"duration": 1.0, "max_iteration": 1}, '"max_iteration"; bounds of a step are max_iter'),
+        ({"duration": 1.0, "law": "nodal_energy"}, "there are saltus.nodal_energy, saltus.discr"),
+        ({"duration": 1.0, "model": "m.urdf"}, "model is a str; saltus.load_urdf makes"),
+    ],
+)
+def test_wrong_arguments_are_type_errors(options, message):
+    with pytest.raises(TypeError, match=message):
+        saltus.simulate(**{"model": cradle(), **options})
+
+
+def test_arguments_after_the_third_are_keywords():
     with pytest.raises(TypeError):
         saltus.simulate(cradle(), None, None, 1.0)  # keyword-only
 
