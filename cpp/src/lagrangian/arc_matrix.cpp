@@ -13,41 +13,60 @@ Vec9 nine(const Vec6& a, const Vec3& b) {
 
 /// Adds a joint's P, less what its own row takes out, to its parent's. P of a leaf is zero and is
 /// never touched: `loaded` tells.
+template <int N>
 void load_parent(const ArcMatrix::Row& r, const Mat9& P, ArcMatrix::Row& parent, Mat9& P_parent) {
-  const Vec9 row = r.row * r.inverse_D;
+  auto to = P_parent.topLeftCorner<N, N>();
   if (r.loaded && parent.loaded) {
-    P_parent += P;
+    to += P.topLeftCorner<N, N>();
   } else if (r.loaded) {
-    P_parent = P;
+    to = P.topLeftCorner<N, N>();
   } else if (!parent.loaded) {
-    P_parent.setZero();
+    to.setZero();
   }
-  P_parent.noalias() -= r.gain * row.transpose();
+  const Eigen::Matrix<double, N, 1> row = r.row.head<N>() * r.inverse_D;
+  to.noalias() -= r.gain.head<N>() * row.transpose();
   parent.loaded = true;
 }
 
+/// s, t, w, u of the header; gain and row begin as w and u.
+void set_generators(const JointMotion& m, const JointComposite& c, double tau, ArcMatrix::Row& r) {
+  const double half = tau / 2, quarter = -tau * tau / 4;
+  r.s = nine(m.S + half * m.W, angular(m.S));
+  r.t = nine(m.S - half * m.W, quarter * angular(m.S));
+  r.gain = nine(c.U + half * c.F, c.G);
+  r.row = nine(c.U - half * c.F, quarter * c.G);
+}
+
+/// The same at tau = 0, where the last three of t and u vanish and nothing reaches those of s and
+/// w.
+void set_generators(const JointMotion& m, const JointComposite& c, ArcMatrix::Row& r) {
+  r.s = r.t = nine(m.S, Vec3::Zero());
+  r.gain = r.row = nine(c.U, Vec3::Zero());
+}
+
+/// N = 9, or 6 for the mass matrix.
+template <int N>
 bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
                      ArcMatrix& J) {
-  const double half = tau / 2, quarter = -tau * tau / 4;
   for (ArcMatrix::Row& r : J.joint) r.loaded = false;
   for (int i = tree.joints() - 1; i >= 0; --i) {
-    const JointMotion& m = kin.joint[i];
-    const JointComposite& c = comp.joint[i];
     ArcMatrix::Row& r = J.joint[i];
     const Mat9& P = J.P[i];
-    r.s = nine(m.S + half * m.W, angular(m.S));
-    r.t = nine(m.S - half * m.W, quarter * angular(m.S));
-    r.gain = nine(c.U + half * c.F, c.G);
-    r.row = nine(c.U - half * c.F, quarter * c.G);
-    if (r.loaded) {
-      r.gain.noalias() += P * r.s;
-      r.row.noalias() += P.transpose() * r.t;
+    if constexpr (N == 9) {
+      set_generators(kin.joint[i], comp.joint[i], tau, r);
+    } else {
+      set_generators(kin.joint[i], comp.joint[i], r);
     }
-    const double D = r.t.dot(r.gain);
-    r.inverse_D = 1 / D;
+    if (r.loaded) {
+      const auto block = P.topLeftCorner<N, N>();
+      r.gain.head<N>().noalias() += block * r.s.head<N>();
+      r.row.head<N>().noalias() += block.transpose() * r.t.head<N>();
+    }
+    const double D = r.t.head<N>().dot(r.gain.head<N>());
     if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
+    r.inverse_D = 1 / D;
     if (tree.parent[i] < 0) continue;
-    load_parent(r, P, J.joint[tree.parent[i]], J.P[tree.parent[i]]);
+    load_parent<N>(r, P, J.joint[tree.parent[i]], J.P[tree.parent[i]]);
   }
   return true;
 }
@@ -89,7 +108,10 @@ ArcMatrix::ArcMatrix(const Tree& tree)
 
 bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
                ArcMatrix& J) {
-  if (tree.one_to_one) return factorize_sweep(tree, kin, comp, tau, J);
+  if (tree.one_to_one) {
+    return tau == 0 ? factorize_sweep<6>(tree, kin, comp, tau, J)
+                    : factorize_sweep<9>(tree, kin, comp, tau, J);
+  }
   J.dense.setZero();
   add_dense(tree, kin, comp, tau, J.dense);
   J.lu.compute(J.dense);

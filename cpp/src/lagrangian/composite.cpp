@@ -3,7 +3,9 @@
 namespace saltus {
 namespace {
 
+/// Half the joints of a free or spherical one carry no body of their own.
 Inertia world_inertia(const BodyInertia& body, const JointMotion& m) {
+  if (body.mass == 0) return {};
   return inertia_about(body.mass, m.p + m.R * body.c_J, m.R * body.I_J * m.R.transpose());
 }
 
@@ -27,6 +29,11 @@ void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, 
   for (int i = 0; i < tree.joints(); ++i) {
     JointComposite& c = comp.joint[i];
     c.Ic = world_inertia(mass.body[i], kin.joint[i]);
+    if (mass.body[i].mass == 0) {
+      c.H.setZero();
+      c.g.setZero();
+      continue;
+    }
     c.H = c.Ic * kin.joint[i].V;
     c.g = spatial(c.Ic.h.cross(mass.gravity), c.Ic.mass * mass.gravity);
   }

@@ -14,6 +14,7 @@ using SmallVec = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_
 /// What a body adds to the size of the terms that its subtree's H and g are sums of. Products of
 /// norms, so that what cancels inside a cross product counts too. Needs first_pass, no more.
 ArcScratch::TermSize body_terms(const Vec3& gravity, const JointMotion& m, const Inertia& I) {
+  if (I.mass == 0) return {0, 0, 0, 0};
   const double w = angular(m.V).norm(), v = linear(m.V).norm(), h = I.h.norm();
   const double g = gravity.norm();
   return {I.I.trace() * w + h * v, I.mass * v + h * w, h * g, I.mass * g};
