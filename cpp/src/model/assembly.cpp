@@ -16,6 +16,7 @@ void Assembly::check() {
   number_coordinates();
   add_frames();
   add_masses();
+  check_moments();
   check_masses();
   add_shapes();
 }
@@ -24,7 +25,7 @@ Model Assembly::build() {
   check();
   m_.name = b_.name_;
   m_.mass.gravity = b_.gravity_;
-  m_.warnings = b_.warnings_;
+  m_.warnings.insert(m_.warnings.begin(), b_.warnings_.begin(), b_.warnings_.end());
   m_.source = b_.source_;
   add_pairs();
   return Model(std::move(m_));

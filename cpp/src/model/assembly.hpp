@@ -50,6 +50,7 @@ class Assembly {
 
   // masses.cpp
   void add_masses();
+  void check_moments();       // of what is welded together; warns of links impossible alone
   void check_masses() const;  // joints that move no mass
 
   // pairs.cpp

@@ -1,4 +1,7 @@
 // Links' inertias welded into the bodies of joints; joints that move no mass.
+#include <Eigen/Eigenvalues>
+#include <sstream>
+
 #include "model/assembly.hpp"
 #include "saltus/lagrangian/arc_matrix.hpp"
 
@@ -11,6 +14,19 @@ struct FeltInertia {
   double locked;  ///< with all others held: its entry on the diagonal
   double scale;   ///< bound of the terms that `locked` is the sum of
 };
+
+/// What is wrong with the principal moments of a body; "" if nothing is.
+std::string impossible_moments(const BodyInertia& body) {
+  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_J).eigenvalues();
+  // 1e-5: thin rods and plates lie on the boundary, and three moments of six digits leave so much.
+  // 1e-12 m^2: a body of a micrometre is a point, whatever noise is written for its moments.
+  const double slack = 1e-5 * body.I_J.norm() + 1e-12 * body.mass;
+  if (moments[0] >= -slack && moments[2] - moments[0] - moments[1] <= slack) return {};
+  std::ostringstream text;
+  text << "principal moments of inertia (" << moments[0] << " " << moments[1] << " " << moments[2]
+       << ") that no body can have: each must be at least 0 and at most the sum of the other two";
+  return text.str();
+}
 
 /// Pivots of a symmetric matrix eliminated from its last row up.
 VecX pivots_from_last(MatX M) {
@@ -59,6 +75,22 @@ void Assembly::add_masses() {
     if (place_[i].joint < 0) continue;  // fixed to the world: cannot move
     BodyInertia& body = m_.mass.body[place_[i].joint];
     body = weld(body, transform(place_[i].X_JF, b_.links_[i].inertia));
+  }
+}
+
+// Bodies with possible moments have possible ones when welded, so some link is to blame where the
+// sum has none.
+void Assembly::check_moments() {
+  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
+    const std::string wrong = impossible_moments(b_.links_[i].inertia);
+    if (wrong.empty()) continue;
+    const std::string text = "link " + quoted(b_.links_[i].name) + " has " + wrong;
+    const int j = place_[i].joint;
+    if (j >= 0 && !impossible_moments(m_.mass.body[j]).empty()) {
+      throw ModelError(text, "link", b_.links_[i].name);
+    }
+    m_.warnings.push_back(text + (j < 0 ? "; it is fixed to the world and they are not used"
+                                        : "; those of all that it is fixed to are possible"));
   }
 }
 

@@ -92,10 +92,13 @@ std::vector<Mistake> joint_mistakes() {
   };
 }
 
-/// A link with an inertia that no body has.
+/// A moving link with an inertia that no body has.
 Mistake bad_link(const std::string& label, const std::vector<std::string>& mentions,
                  const BodyInertia& inertia) {
-  return {label, "link", "hand", mentions, [inertia] { arm().add_link({"hand", inertia}); }};
+  return {label, "link", "hand", mentions, [inertia] {
+            const JointSpec wrist = joint("wrist", JointType::revolute, "lower", "hand");
+            arm().add_link({"hand", inertia}).add_joint(wrist).build();
+          }};
 }
 
 std::vector<Mistake> link_mistakes() {
@@ -172,12 +175,27 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MistakeTest, testing::ValuesIn(shape_mistakes()
 
 // What is on the boundary of the rules and lies within them.
 TEST(CheckInertia, AcceptsPointsRodsPlatesAndSixDigits) {
-  for (const Vec3& moments : {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 2), Vec3(2, 1, 1),
-                              Vec3(0.333333, 0.333333, 0.666667), Vec3(1, 1, -1e-6)}) {
-    EXPECT_NO_THROW(check_inertia({1, Vec3::Zero(), moments.asDiagonal()}, "link"));
+  for (const Vec3& moments :
+       {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 2), Vec3(2, 1, 1),
+        Vec3(0.333333, 0.333333, 0.666667), Vec3(1, 1, -1e-6), Vec3(-1e-20, 0, 1e-20)}) {
+    const BodyInertia hand{1, Vec3(1, 1, 1), moments.asDiagonal()};
+    const JointSpec wrist = joint("wrist", JointType::revolute, "lower", "hand");
+    const Model model = arm().add_link({"hand", hand}).add_joint(wrist).build();
+    EXPECT_TRUE(model->warnings.empty());
   }
   EXPECT_NO_THROW(check_inertia({}, "link"));
   EXPECT_NO_THROW(check_inertia(some_body(), "link"));
+}
+
+// Robots' files have place holders of 1e-6 kg with any moments, fixed to what has a true mass.
+TEST(CheckInertia, WarnsOfALinkThatIsImpossibleAloneOnly) {
+  const BodyInertia holder{1e-6, Vec3::Zero(), Vec3(0, 0, 3e-6).asDiagonal()};
+  for (const std::string carrier : {"lower", "world"}) {
+    const JointSpec fixed = joint("holding", JointType::fixed, carrier, "holder");
+    const Model model = arm().add_link({"holder", holder}).add_joint(fixed).build();
+    ASSERT_EQ(model->warnings.size(), 1u);
+    EXPECT_NE(model->warnings[0].find("\"holder\" has principal moments"), std::string::npos);
+  }
 }
 
 // A rotation written with six digits is made orthonormal; one to rounding is left as it is.

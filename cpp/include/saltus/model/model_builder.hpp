@@ -83,8 +83,9 @@ class SALTUS_EXPORT ModelBuilder {
   friend class Assembly;  // build()'s worker, model/assembly.cpp
 };
 
-/// @throws ModelError where no body can have this mass or inertia: negative mass, not symmetric,
-/// a negative principal moment, or one greater than the sum of the other two.
+/// @throws ModelError where no link can have this mass or inertia: negative mass, not symmetric,
+/// an inertia without mass. Principal moments are judged by build(), which knows what is welded to
+/// what: many robots' files have links that are impossible alone (1e-6 kg as a place holder).
 SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
 
 /// Inertia of a homogeneous ball about its centre, a frequent need.
