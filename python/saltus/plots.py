@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -74,7 +75,9 @@ def new_figure(path: str | os.PathLike[str] | None, size: tuple[float, float]) -
             f"pictures need matplotlib: pip install 'saltus[demo]' ({error})"
         ) from None
     if path is not None:
-        return Figure(figsize=size, layout="constrained")
+        figure = Figure(figsize=size, layout="constrained")
+        _check_ending(figure, path)
+        return figure
     from matplotlib import pyplot
 
     return pyplot.figure(figsize=size, layout="constrained")
@@ -83,11 +86,16 @@ def new_figure(path: str | os.PathLike[str] | None, size: tuple[float, float]) -
 def finish(figure: Figure, path: str | os.PathLike[str] | None) -> Figure:
     """Write the figure where a path is given."""
     if path is not None:
-        try:
-            figure.savefig(path, dpi=150)
-        except ValueError as error:  # an ending that is no format
-            raise ModelError(f"{os.fspath(path)}: {error}") from None
+        figure.savefig(path, dpi=150)
     return figure
+
+
+def _check_ending(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Raise before anything is drawn where the ending is no format."""
+    formats = figure.canvas.get_supported_filetypes()
+    ending = Path(path).suffix.removeprefix(".").lower()
+    if ending and ending not in formats:  # without one, matplotlib adds its default
+        raise ModelError(f'{os.fspath(path)}: no format "{ending}"; there are {", ".join(formats)}')
 
 
 def _groups(run: Trajectory) -> list[tuple[str, list[int]]]:
@@ -134,5 +142,5 @@ def _mark_impacts(axes: Axes, run: Trajectory) -> None:
             axes.axvline(t, color="0.8", lw=0.6, zorder=0)
     elif len(times) > 0:  # so many that lines would hide everything: a rug
         heights = np.full(len(times), -0.02)
-        style = {"ls": "none", "marker": "|", "ms": 4, "color": "0.5", "clip_on": False}
-        axes.plot(times, heights, transform=axes.get_xaxis_transform(), **style)
+        style: dict[str, Any] = {"ls": "none", "marker": "|", "ms": 4, "color": "0.5"}
+        axes.plot(times, heights, transform=axes.get_xaxis_transform(), clip_on=False, **style)

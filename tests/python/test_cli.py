@@ -127,6 +127,12 @@ def test_errors_of_the_user_are_one_line(arguments, parts):
     assert_one_line(run_cli(*arguments), 2, *parts)
 
 
+def test_a_wrong_ending_is_told_before_the_run():
+    done = run_cli(*SIMULATE, "--plot", "run.png.x")
+    assert_one_line(done, 2, 'run.png.x: no format "x"; there are', "png")
+    assert done.stdout == ""
+
+
 def test_a_bad_file_is_named_with_its_line(tmp_path):
     path = tmp_path / "bad.urdf"
     path.write_text(saltus.scenes.chain(1).replace('value="0.2"', 'value="-0.2"'))
