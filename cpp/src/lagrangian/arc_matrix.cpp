@@ -63,8 +63,8 @@ bool factorize_sweep(const Tree& tree, const Kinematics& kin, const Composite& c
       r.row.head<N>().noalias() += block.transpose() * r.t.head<N>();
     }
     const double D = r.t.head<N>().dot(r.gain.head<N>());
+    r.inverse_D = 1 / D;  // before the return: it tells which pivot failed
     if (!(std::abs(D) > 0) || !std::isfinite(D)) return false;
-    r.inverse_D = 1 / D;
     if (tree.parent[i] < 0) continue;
     load_parent<N>(r, P, J.joint[tree.parent[i]], J.P[tree.parent[i]]);
   }
