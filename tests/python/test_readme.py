@@ -77,13 +77,13 @@ class ShortNames(doctest.OutputChecker):
 
 
 @pytest.mark.parametrize("page", PAGES[1:], ids=by_name)
-def test_sessions_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
+def test_dialogues_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runner = doctest.DocTestRunner(ShortNames(), optionflags=doctest.ELLIPSIS)
     text = page.read_text(encoding="utf-8")
-    session = doctest.DocTestParser().get_doctest(text, {}, page.stem, str(page), 0)
+    dialogue = doctest.DocTestParser().get_doctest(text, {}, page.stem, str(page), 0)
     said: list[str] = []
-    runner.run(session, out=said.append)
+    runner.run(dialogue, out=said.append)
     assert not runner.failures, "".join(said)
 
 
