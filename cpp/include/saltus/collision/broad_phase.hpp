@@ -16,8 +16,8 @@ namespace saltus {
 /// grows beyond a million pairs. Any state is valid for any configuration: it only saves time.
 struct BroadPhase {
   BroadPhase() = default;
-  BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
-             const std::vector<Pair>& pairs);
+  SALTUS_EXPORT BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
+                           const std::vector<Pair>& pairs);
 
   std::vector<int> candidates;  ///< indices of pairs that can touch, ascending; by find_candidates
 
