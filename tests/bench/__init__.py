@@ -1,0 +1,1 @@
+"""Benchmarks against MuJoCo and Pinocchio: python -m tests.bench."""

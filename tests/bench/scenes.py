@@ -1,0 +1,82 @@
+"""The benchmarks' models: one URDF text each, that every engine is given."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from pathlib import Path
+
+import saltus
+
+ROBOTS = {
+    "panda": ("panda_description/urdf/panda.urdf", False),
+    "anymal": ("anymal_b_simple_description/robots/anymal.urdf", True),
+    "talos": ("talos_data/robots/talos_reduced.urdf", True),
+    "tiago": ("tiago_description/robots/tiago.urdf", False),
+}
+
+
+PLACE_HOLDER = 1e-5  # [kg] lighter links have inertias of no body, which MuJoCo refuses
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A tree without shapes, mimic joints, damping and limits, and its calm start."""
+
+    name: str
+    kind: str  # chain, cradle, robot
+    urdf: str
+    angle: float  # [rad | m] every coordinate at the start; velocities are 0
+    floating: bool = False
+    balls: int = 0  # of a cradle, else 0
+
+
+def chain(links: int) -> Scene:
+    return Scene(f"chain {links}", "chain", saltus.scenes.chain(links), 0.1)
+
+
+def cradle(balls: int) -> Scene:
+    urdf = bare(saltus.scenes.cradle(balls))
+    return Scene(f"cradle {balls}", "cradle", urdf, 0.1, balls=balls)
+
+
+def robots() -> tuple[list[Scene], str]:
+    """Return the robots of example-robot-data, or none and why."""
+    try:
+        data = importlib.metadata.distribution("example-robot-data")
+    except importlib.metadata.PackageNotFoundError:
+        return [], "robots: example-robot-data is not installed (pip install 'saltus[robots]')"
+    folder = Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots"))
+    return [
+        Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating)
+        for name, (path, floating) in ROBOTS.items()
+    ], ""
+
+
+def bare(urdf: str) -> str:
+    """Return links, inertias and joints alone.
+
+    Meshes, limits, damping and mimic joints are what engines treat differently.
+    """
+    robot = ET.fromstring(urdf)
+    for element in list(robot):
+        if element.tag not in {"link", "joint"}:
+            robot.remove(element)
+        for part in list(element):
+            if part.tag in {"visual", "collision", "mimic", "dynamics", "safety_controller"}:
+                element.remove(part)
+            elif part.tag == "limit":
+                part.attrib = {"lower": "-1e3", "upper": "1e3", "effort": "1e6", "velocity": "1e6"}
+    for inertial in robot.iterfind("link/inertial"):
+        if 0 < float(inertial.find("mass").get("value")) < PLACE_HOLDER:
+            small = {
+                "ixx": "1e-9",
+                "iyy": "1e-9",
+                "izz": "1e-9",
+                "ixy": "0",
+                "ixz": "0",
+                "iyz": "0",
+            }
+            inertial.find("inertia").attrib = small
+    return ET.tostring(robot, encoding="unicode")
