@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
 #include "lagrangian/evaluate.hpp"
@@ -82,20 +83,59 @@ TEST(ArcMatrix, SolveLeavesNoResidual) {
   }
 }
 
+// Whatever was factored before, in either of the two sweeps.
 TEST(ArcMatrix, CanBeUsedAgain) {
-  const RandomTree t = varied_tree(9);
-  const test::Evaluation at = test::evaluate(t);
-  ArcMatrix fresh(t.tree), used(t.tree);
-  const VecX r = Random(1).vector(t.tree.coordinates);
-  VecX x = r, y = r;
-  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.3, used));
-  solve(t.tree, used, y);
-  y = r;
-  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.01, used));
-  solve(t.tree, used, y);
-  ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.01, fresh));
-  solve(t.tree, fresh, x);
-  EXPECT_EQ(x, y);
+  for (int k = 0; k < 30; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    const VecX r = Random(1).vector(t.tree.coordinates);
+    ArcMatrix used(t.tree);
+    for (const double tau : {0.3, 0.0, 0.01, 0.3, 0.0}) {
+      ArcMatrix fresh(t.tree);
+      VecX x = r, y = r;
+      ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, used));
+      ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, fresh));
+      solve(t.tree, used, x);
+      solve(t.tree, fresh, y);
+      EXPECT_EQ(x, y) << k << " tau " << tau;
+    }
+  }
+}
+
+// M depends on q alone: no velocity and no second pass is needed, and none is read.
+TEST(ArcMatrix, MassPassIsEnoughForTheMassMatrix) {
+  for (int k = 0; k < 100; ++k) {
+    const RandomTree t = varied_tree(k);
+    const test::Evaluation at = evaluate(t);
+    test::Evaluation mass_only{Kinematics(t.tree), Composite(t.tree)};
+    set_configuration(t.tree, t.q, mass_only.kin);
+    mass_pass(t.tree, t.mass, mass_only.kin, mass_only.comp);
+    ArcMatrix J(t.tree), M(t.tree);
+    ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0, J));
+    ASSERT_TRUE(factorize(t.tree, mass_only.kin, mass_only.comp, 0, M));
+    VecX x = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates), y = x;
+    solve(t.tree, J, x);
+    solve(t.tree, M, y);
+    EXPECT_EQ(x, y) << k;
+  }
+}
+
+// build() names the joint by it.
+TEST(ArcMatrix, TellsWhichPivotVanishes) {
+  RandomTree t;
+  for (int k = 0; k < 3; ++k) {  // two slides on one line below a third that is square to it
+    const Mat3 R = k == 1 ? rotation_z_to(Vec3::UnitX()) : Mat3(Mat3::Identity());
+    add_joint(t.tree, k - 1, {Joint::Kind::prismatic, 0}, {R, Vec3::Zero()}, {k, 1, 0});
+    t.mass.body.push_back({k == 1 ? 0.0 : 1.0, Vec3::Zero(), Mat3::Identity()});
+  }
+  t.q = t.v = VecX::Zero(3);
+  const test::Evaluation at = evaluate(t);
+  for (const double tau : {0.0, 0.01}) {
+    ArcMatrix J(t.tree);
+    EXPECT_FALSE(factorize(t.tree, at.kin, at.comp, tau, J));
+    EXPECT_EQ(J.joint[2].inverse_D, 1);
+    EXPECT_FALSE(std::isfinite(J.joint[1].inverse_D));
+  }
 }
 
 TEST(ArcMatrix, DeepTreesKeepTheirDigits) {
@@ -122,6 +162,10 @@ TEST(ArcMatrix, SingularAndNaNAreTold) {
     nan.v[0] = std::numeric_limits<double>::quiet_NaN();
     const test::Evaluation at_nan = test::evaluate(nan);
     EXPECT_FALSE(factorize(t.tree, at_nan.kin, at_nan.comp, 0.01, J));
+    RandomTree infinite = t;
+    infinite.mass.body[0].I_J *= std::numeric_limits<double>::infinity();
+    const test::Evaluation at_infinite = test::evaluate(infinite);
+    EXPECT_FALSE(factorize(t.tree, at_infinite.kin, at_infinite.comp, 0, J));
     RandomTree massless = t;
     for (BodyInertia& body : massless.mass.body) body = {};
     const test::Evaluation at_massless = test::evaluate(massless);
