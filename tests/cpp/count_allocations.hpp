@@ -1,5 +1,5 @@
-// Counts the heap allocations of a test program, the library's included. It replaces the global
-// operator new: include it in exactly one file of a program.
+// Counts the heap allocations of a test program, the library's and Eigen's included. It replaces
+// the global malloc: include it in exactly one file of a program.
 #pragma once
 
 #include <atomic>
@@ -10,6 +10,16 @@ namespace saltus::test {
 inline std::atomic<long> allocations{0};
 }
 
+// Eigen's arrays come from malloc, not from operator new, so that replacing the latter would miss
+// them. Where malloc cannot be replaced (another C library, a sanitizer that has its own),
+// operator new is what is left.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+extern "C" void* __libc_malloc(std::size_t size);  // glibc's own, under its second name
+extern "C" void* malloc(std::size_t size) noexcept {
+  ++saltus::test::allocations;
+  return __libc_malloc(size);
+}
+#else
 void* operator new(std::size_t size) {
   ++saltus::test::allocations;
   if (void* p = std::malloc(size)) return p;
@@ -17,3 +27,4 @@ void* operator new(std::size_t size) {
 }
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#endif

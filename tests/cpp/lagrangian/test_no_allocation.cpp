@@ -5,17 +5,27 @@
 #include "lagrangian/evaluate.hpp"
 #include "saltus/lagrangian/arc_matrix.hpp"
 #include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/partials.hpp"
 
 namespace saltus {
 namespace {
 
 using test::allocations;
 
-TEST(Allocation, CounterSeesEigen) {
+TEST(Allocation, CounterSeesEigenAndTheLibrary) {
   const long before = allocations;
   const VecX x = VecX::Ones(10);
-  EXPECT_GT(allocations, before);
+  const long here = allocations;
+  EXPECT_GT(here, before);
   EXPECT_EQ(x.sum(), 10);
+  const Tree none;
+  lagrangian(none, {}, VecX(), VecX());
+  const long empty = allocations - here;  // no arrays: vectors and matrices without entries
+  const test::RandomTree t = test::varied_tree(3);
+  const long before_call = allocations;
+  const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
+  EXPECT_GE(allocations - before_call, empty + 5);  // L_q, L_v, L_qq, L_vq, L_vv at least
+  EXPECT_EQ(L.L_q.size(), t.tree.coordinates);
 }
 
 TEST(Allocation, NoneInTheRecursions) {
