@@ -103,8 +103,12 @@ void Assembly::check_masses() const {
     // 1e-12, 1e-14: rounding of the sweep and of one sum, with a few digits to spare
     if (felt[c].free > 1e-12 * felt[c].locked && felt[c].locked > 1e-14 * felt[c].scale) continue;
     const JointSpec& joint = b_.joints_[joint_.at(m_.coordinates[c].joint)];
-    throw ModelError("joint " + quoted(joint.name) + " moves no mass: give link " +
-                         quoted(joint.child) + " or a link below it a mass and an inertia",
+    const bool gives_way = felt[c].locked > 1e-14 * felt[c].scale;
+    throw ModelError("joint " + quoted(joint.name) + " moves no mass" +
+                         (gives_way ? " of its own: a joint below it undoes its motion, as one on "
+                                      "the same axis does"
+                                    : ": give link " + quoted(joint.child) +
+                                          " or a link below it a mass and an inertia"),
                      "joint", joint.name);
   }
 }

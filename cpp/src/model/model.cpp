@@ -27,7 +27,13 @@ int index_of(const Items& items, const std::string& kind, const std::string& nam
 
 VecX from_names(const Model& model, const std::map<std::string, double>& values) {
   VecX x = VecX::Zero(model.n_q());
-  for (const auto& [name, value] : values) x[model.coordinate(name)] = value;
+  for (const auto& [name, value] : values) {
+    if (!std::isfinite(value)) {
+      throw ModelError("coordinate \"" + name + "\" = " + std::to_string(value) + " is not finite",
+                       "coordinate", name);
+    }
+    x[model.coordinate(name)] = value;
+  }
   return x;
 }
 

@@ -50,6 +50,20 @@ class Progress {
   Clock::time_point last_ = Clock::now();
 };
 
+/// Rows for the start, every n-th step and the last.
+Trajectory allocate(const Model& model, long steps, int record_every) {
+  // Asking the machine for more may well succeed and end in the kernel's killing the program.
+  constexpr double most_gigabytes = 16;
+  const long rows = (steps + record_every - 1) / record_every + 1;
+  const double gigabytes = static_cast<double>(rows) * (4 + 3 * model.n_q()) * 8e-9;
+  if (gigabytes <= most_gigabytes) return empty_trajectory(model, rows);
+  std::ostringstream text;
+  text << rows << " rows of " << model.n_q() << " coordinates are " << gigabytes
+       << " GB, more than " << most_gigabytes << "; record fewer with record_every, now "
+       << record_every;
+  throw ModelError(text.str());
+}
+
 void add_report(const StepReport& report, Trajectory& run) {
   const int shift = static_cast<int>(run.impulses.size());
   for (Impact impact : report.impacts) {
@@ -76,7 +90,7 @@ Trajectory simulate(const Model& model, const State& start, double duration,
 
   check_vector(start.q, model.n_q(), "state.q");
   check_vector(start.p, model.n_q(), "state.p");
-  Trajectory run = empty_trajectory(model, steps / options.record_every + 1);
+  Trajectory run = allocate(model, steps, options.record_every);
   run.options = step_options;
   State state = start;
   measure(*model, state, options.h, meter);
@@ -86,7 +100,7 @@ Trajectory simulate(const Model& model, const State& start, double duration,
   for (; k < steps && progress.go_on(static_cast<double>(k) / static_cast<double>(steps)); ++k) {
     stepper.step(state);
     add_report(stepper.report(), run);
-    if ((k + 1) % options.record_every != 0) continue;
+    if ((k + 1) % options.record_every != 0 && k + 1 != steps) continue;
     measure(*model, state, options.h, meter);
     // t0 + k h, not the sum of k times h, so that rows fall on round times
     record(state, start.t + static_cast<double>(k + 1) * options.h, meter, rows++, run);

@@ -198,11 +198,14 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
            << " s keep closing and opening within one arc: " << contact_list();
       break;
     default:
-      text
-          << "DEL residual " << arc.residual << " after " << arc.iterations
-          << " iterations at t = " << node.t << " s, arc of " << arc.tau
-          << " s; a smaller h helps where the motion is fast (h = " << options.h
-          << " s), and a singular configuration (pitch of a free joint at 90 deg) does not go away";
+      text << "DEL residual " << arc.residual << " after " << arc.iterations
+           << " iterations at t = " << node.t << " s, arc of " << arc.tau
+           << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
+      for (const JointInfo& joint : model->joints) {
+        if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+        text << "; joint \"" << joint.name << "\" is singular at pitch = +-90 deg";
+        break;
+      }
   }
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }

@@ -59,6 +59,15 @@ TEST(Simulate, RecordsEveryNthStepAndTheImpactsOfAll) {
   EXPECT_EQ(tenth.impacts.back().first, all.impacts.back().first);
 }
 
+TEST(Simulate, TheLastStepIsARowEvenWhereItIsNotTheNth) {
+  const Model model = cradle({.balls = 2});
+  const State start = model.state({{"swing_0", 0.3}});
+  const Trajectory run = simulate(model, start, 1, {.h = 0.01, .record_every = 7});
+  ASSERT_EQ(run.t.size(), 16);
+  EXPECT_DOUBLE_EQ(run.t[14], 0.98);
+  EXPECT_DOUBLE_EQ(run.t[15], 1);
+}
+
 TEST(Simulate, TheShadowEnergyIsWhatAFixedStepConserves) {
   // Double pendulum at h = 0.01: H wanders by 1e-4 of the swing, the shadow by h^4.
   const Model model = double_pendulum();
@@ -108,6 +117,7 @@ TEST(Simulate, BadDurationsAndStepsAreNamed) {
   EXPECT_NE(message(1, 0).find("h = 0"), std::string::npos);
   EXPECT_NE(message(-1, 0.1).find("duration = -1"), std::string::npos);
   EXPECT_NE(message(std::nan(""), 0.1).find("duration = nan"), std::string::npos);
+  EXPECT_NE(message(1e6, 1e-6).find("record_every"), std::string::npos) << message(1e6, 1e-6);
   EXPECT_NE(message(1, 0.3).find("the nearest is 0.9"), std::string::npos) << message(1, 0.3);
 }
 

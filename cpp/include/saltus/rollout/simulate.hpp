@@ -12,7 +12,7 @@ struct SimulateOptions {
   double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
   bool collisions = true;
-  int record_every = 1;   ///< steps between recorded rows
+  int record_every = 1;   ///< steps between recorded rows; the last is always one
   StepOptions step = {};  ///< bounds and tolerances; h, law, collisions above win
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.
