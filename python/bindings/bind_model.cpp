@@ -22,14 +22,16 @@ void bind_state(py::module_& m) {
       .def_readonly("t", &State::t, "[s]")
       .def_readonly("q", &State::q, "[rad | m] coordinates, shape (n,)")
       .def_readonly("p", &State::p, "[kg m^2/s | kg m/s] conjugate momenta, shape (n,)")
-      .def(
-          "__eq__", [](const State& a, const State& b) { return a == b; }, py::is_operator())
+      .def("__eq__",
+           [](const State& self, const py::object& other) {
+             return py::isinstance<State>(other) && self == other.cast<const State&>();
+           })
       .def("__copy__", [](const State& s) { return s; })
       .def(
-          "__deepcopy__", [](const State& s, const py::dict&) { return s; }, py::arg("memo"))
+          "__deepcopy__", [](const State& s, const py::object&) { return s; }, py::arg("memo"))
       .def("__repr__", &show_state)
       .def(py::pickle([](const State& s) { return py::make_tuple(s.t, s.q, s.p); },
-                      [](const py::tuple& t) {
+                      [](const py::typing::Tuple<double, VecX, VecX>& t) {
                         return State{t[0].cast<double>(), t[1].cast<VecX>(), t[2].cast<VecX>()};
                       }));
 }

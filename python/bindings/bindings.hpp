@@ -56,8 +56,8 @@ std::vector<std::string> names_of(const Items& items) {
 
 /// A read-only array over `items`, which `owner` keeps alive: no copy.
 template <class Item>
-py::array_t<Item> view(const std::vector<Item>& items, const py::handle& owner) {
-  py::array_t<Item> array(static_cast<py::ssize_t>(items.size()), items.data(), owner);
+py::array view(const std::vector<Item>& items, const py::handle& owner) {
+  py::array array(static_cast<py::ssize_t>(items.size()), items.data(), owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }

@@ -3,8 +3,8 @@
 >>> import saltus
 >>> model = saltus.load_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
 >>> run = saltus.simulate(model, q={"swing_0": 0.3}, duration=1.0, h=0.01)
->>> print(f"{run.impacts['t'][0]:.6f}")
-0.504604
+>>> print(f"{run.impacts['t'][0]:.4f} s")
+0.5046 s
 
 Units are SI. Arrays of coordinates are `(n,)`, trajectories `(rows, n)`. Everything that a user
 can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError` (a

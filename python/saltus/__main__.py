@@ -7,7 +7,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 import saltus
 from saltus import commands
@@ -131,7 +131,14 @@ def _add_floating(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *_: object) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     """Print a warning without the place in this program that issued it."""
     print(f"saltus: {category.__name__}: {message}", file=sys.stderr)
 

@@ -116,6 +116,12 @@ def _speed(run: Trajectory, row: Row, ball: int) -> Array:
     return speed
 
 
+def _radius(model: Model, ball: int) -> float:
+    shape = model.shapes[ball].shape
+    assert isinstance(shape, Sphere)  # _find_row takes no other
+    return shape.radius
+
+
 def _check_times(run: Trajectory, times: Sequence[float]) -> list[float]:
     for t in times:
         if not run.t[0] <= t <= run.t[-1]:
@@ -153,7 +159,7 @@ def _draw_axes(axes: Axes, run: Trajectory) -> None:
     axes.set_xlabel("time [s]")
     axes.set_ylabel("velocity [m/s]")
     axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
+    axes.legend(loc="upper right", bbox_to_anchor=(1.0, -0.1), ncols=2, frameon=False)
 
 
 def _draw_sketches(
@@ -170,14 +176,14 @@ def _draw_sketches(
         centres[ball] = row.across(model.shape_poses(configurations, ball)[:, :3, 3])
         pivots[ball] = row.across(model.poses(configurations, placed.link)[:, :3, 3])
     everything = np.concatenate([*centres.values(), *pivots.values()])
-    reach = max(model.shapes[ball].shape.radius for ball in row.balls)
+    reach = max(_radius(model, ball) for ball in row.balls)
     low, high = everything.min(axis=0) - 1.3 * reach, everything.max(axis=0) + 1.3 * reach
     for k, sketch in enumerate(above):
         for ball in row.balls:
             line = np.stack([pivots[ball][k], centres[ball][k]])
-            sketch.plot(line[:, 0], line[:, 1], color="0.4", lw=0.8)
-            radius = model.shapes[ball].shape.radius
-            sketch.add_patch(Circle(centres[ball][k], radius, fc="0.85", ec="black", lw=0.8))
+            sketch.plot(line[:, 0], line[:, 1], color="0.4", lw=0.8, zorder=0)
+            circle = Circle(centres[ball][k], _radius(model, ball), fc="0.85", ec="black", lw=0.8)
+            sketch.add_patch(circle)
         tops = np.array([pivots[ball][k] for ball in row.balls])
         sketch.plot(tops[:, 0], tops[:, 1], color="black", lw=2.0, solid_capstyle="round")
         sketch.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")

@@ -22,6 +22,15 @@ def chain(links: int) -> saltus.Model:
     return saltus.load_urdf(saltus.scenes.chain(links))
 
 
+def chain_on_a_body(links: int = 2) -> str:
+    """Return a chain whose root link has mass, so that it can float."""
+    body = (
+        '<link name="frame"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" '
+        'iyy="0.1" iyz="0" izz="0.1"/></inertial></link>'
+    )
+    return saltus.scenes.chain(links).replace('<link name="frame"/>', body)
+
+
 @functools.cache
 def cradle_run() -> saltus.Trajectory:
     return saltus.simulate(cradle(), q={"swing_0": 0.3}, duration=2.0, progress=False)

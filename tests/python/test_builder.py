@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball
+from helpers import bouncing_ball, chain_on_a_body
 
 import saltus
 from saltus import JointType, ModelBuilder, Pose, Sphere
@@ -114,7 +114,8 @@ def rename(builder: ModelBuilder) -> ModelBuilder:
     [
         (lambda b: b.add_link("upper"), 'two links are named "upper"', ("link", "upper")),
         (lambda b: b.add_link("x", saltus.BodyInertia(-1)), "mass -1", ("link", "x")),
-        (lambda b: b.add_link("x", saltus.BodyInertia(1, I_J=np.diag([1, 0, 0]))),
+        (lambda b: b.add_link("x", saltus.BodyInertia(1, I_J=np.diag([1, 0, 0])))
+         .add_joint("j", JointType.revolute, parent="base", child="x").build(),
          "principal moments", ("link", "x")),
         (lambda b: b.add_joint("x", JointType.revolute, parent="upper", child="lower",
                                axis=(0, 0, 0)), "zero axis", ("joint", "x")),
@@ -190,8 +191,7 @@ def test_a_plain_file_gives_no_warning(tmp_path):
 
 
 def test_urdf_options():
-    text = saltus.scenes.chain(2)
-    model = saltus.load_urdf(text, gravity=(0, 0, -1), root_joint=JointType.floating)
+    model = saltus.load_urdf(chain_on_a_body(), gravity=(0, 0, -1), root_joint=JointType.floating)
     assert model.n_q == 8
     assert model.gravity[2] == -1
 

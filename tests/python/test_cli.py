@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from helpers import run_cli
+from helpers import chain_on_a_body, run_cli
 
 import saltus
 
@@ -52,10 +52,11 @@ def test_long_tables_are_cut_and_can_be_had():
 
 
 def test_other_options_of_simulate(tmp_path):
-    out = tmp_path / "run.h5"
+    out, model = tmp_path / "run.h5", tmp_path / "chain.urdf"
+    model.write_text(chain_on_a_body(3))
     done = run_cli(
-        "simulate", CRADLE, "--set", "swing_0=0.3", "--set", "swing_2=-0.3", "--set-velocity",
-        "sway_1=0.5", "--duration", "1", "--h", "0.005", "--law", "discrete_energy",
+        "simulate", model, "--set", "joint_0=0.3", "--set", "joint_2=-0.3", "--set-velocity",
+        "joint_1=0.5", "--duration", "1", "--h", "0.005", "--law", "discrete_energy",
         "--record-every", "10", "--no-collisions", "--floating", "--out", out,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
@@ -63,9 +64,9 @@ def test_other_options_of_simulate(tmp_path):
     assert len(run) == 21
     assert run.options.law is saltus.discrete_energy
     assert run.options.collisions is False
-    assert run.model.n_q == 12
-    assert run.column("swing_2")[0] == -0.3
-    assert run.column("sway_1", "v")[0] == pytest.approx(0.5)
+    assert run.model.n_q == 9
+    assert run.column("joint_2")[0] == -0.3
+    assert run.column("joint_1", "v")[0] == pytest.approx(0.5)
 
 
 def test_info(tmp_path):
@@ -79,10 +80,10 @@ def test_info(tmp_path):
     assert kinds == [["sphere", "~", "sphere", "3"]]
     assert "ball_0 ~ ball_2" not in done.stdout
     assert "ball_0 ~ ball_2" in run_cli("info", CRADLE, "--pairs").stdout
-    assert "root_x" in run_cli("info", CRADLE, "--floating").stdout
     chain = tmp_path / "chain.urdf"
-    chain.write_text(saltus.scenes.chain(2))
+    chain.write_text(chain_on_a_body())
     assert "shapes: none" in run_cli("info", chain).stdout
+    assert "root_x" in run_cli("info", chain, "--floating").stdout
 
 
 def test_warnings_of_a_model_are_one_line_each(tmp_path):

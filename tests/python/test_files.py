@@ -5,7 +5,7 @@ from __future__ import annotations
 import h5py
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle_run
+from helpers import bouncing_ball, chain_on_a_body, cradle_run
 
 import saltus
 from saltus.files import ARRAYS, NUMBERS, OPTIONS
@@ -43,7 +43,7 @@ def test_a_file_is_complete(tmp_path):
 
 def test_options_of_the_model_are_kept(tmp_path):
     floating = saltus.load_urdf(
-        saltus.scenes.chain(2), gravity=(0, 0, -1.62), root_joint=saltus.JointType.floating
+        chain_on_a_body(), gravity=(0, 0, -1.62), root_joint=saltus.JointType.floating
     )
     run = saltus.simulate(
         floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.discrete_energy,

@@ -20,7 +20,7 @@ target_link_libraries(hello_cradle PRIVATE saltus::saltus)
 def check_output(command: list[object]) -> list[str]:
     done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT)
     first, second = done.stdout.splitlines()
-    assert first == "first impact at 0.504604 s"
+    assert first == "first impact at 0.50460 s"
     assert second.startswith("10 impacts, energy error ")
     return [first, second]
 

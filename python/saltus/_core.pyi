@@ -1,0 +1,1563 @@
+"""
+Compiled part of saltus; everything public is in the package itself.
+"""
+
+from __future__ import annotations
+import collections.abc
+import enum
+import numpy
+import numpy.typing
+import os
+import typing
+
+__all__: list[str] = [
+    "BodyInertia",
+    "Box",
+    "Capsule",
+    "Coordinate",
+    "Cylinder",
+    "Energies",
+    "Gap",
+    "Gaps",
+    "HalfSpace",
+    "Impact",
+    "ImpactLaw",
+    "ImpactOrder",
+    "ImpactOutcome",
+    "JammedError",
+    "JointInfo",
+    "JointType",
+    "LagrangianPartials",
+    "Link",
+    "Mimic",
+    "Model",
+    "ModelBuilder",
+    "ModelError",
+    "Pair",
+    "PlacedShape",
+    "Pose",
+    "Sphere",
+    "State",
+    "StepError",
+    "StepOptions",
+    "StepReport",
+    "Stepper",
+    "Trajectory",
+    "discrete_energy",
+    "energies",
+    "gap",
+    "gap_table",
+    "has_gap",
+    "nodal_energy",
+    "read_urdf",
+    "resolve_impact",
+    "rotation_from_rpy",
+    "shape_name",
+    "simulate",
+    "solid_sphere",
+]
+
+class ModelError(ValueError):
+    """
+    Bad input: a file, a name, the shape of an array, a number that no model can have.
+
+    Attributes
+    ----------
+    element : str
+        Kind of the culprit where it has a name ("link", "joint", "coordinate"), else "".
+    name : str
+        Its name, else "".
+    """
+
+    element: typing.ClassVar[str] = ""
+    name: typing.ClassVar[str] = ""
+
+class StepError(RuntimeError):
+    """
+    A step that could not be made; the state it started from is unchanged.
+
+    Attributes
+    ----------
+    t : float
+        [s] where the step, or the arc of it that failed, began.
+    residual : float
+        [largest momentum] scaled residual when the solver gave up.
+    iterations : int
+        Newton iterations, arcs or impulses spent.
+    """
+
+    iterations: typing.ClassVar[int] = 0
+    residual: typing.ClassVar[float]
+    t: typing.ClassVar[float]
+
+class JammedError(StepError):
+    """
+    A cascade of impulses that does not end: bodies jammed between others.
+    """
+
+class Pose:
+    """
+    A rigid placement of a frame B in a frame A.
+
+    `X_AB * p_B` is the point `p_B` seen from A, `X_AB * X_BC` the placement of C in A.
+
+    Parameters
+    ----------
+    p : array_like, shape (3,)
+        [m] B's origin in A.
+    R : array_like, shape (3, 3)
+        Rotation; its columns are B's axes in A.
+    """
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"],
+    ]: ...
+    def __init__(
+        self,
+        p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        R: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = (
+            (1, 0, 0),
+            (0, 1, 0),
+            (0, 0, 1),
+        ),
+    ) -> None: ...
+    @typing.overload
+    def __mul__(self, X_BC: Pose) -> Pose: ...
+    @typing.overload
+    def __mul__(
+        self, p_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    def inverse(self) -> Pose:
+        """
+        The placement of A in B.
+        """
+    def matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 4]"]:
+        """
+        The homogeneous matrix, shape (4, 4).
+        """
+    @property
+    def R(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        rotation, shape (3, 3)
+        """
+    @property
+    def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] origin, shape (3,)
+        """
+
+class BodyInertia:
+    """
+    Mass of a rigid body, in the frame of its link (or joint) J.
+
+    `a + b` is the two bodies welded together.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    c_J : array_like, shape (3,)
+        [m] centre of mass.
+    I_J : array_like, shape (3, 3)
+        [kg m^2] about the centre of mass, axes of J.
+    """
+    def __add__(self, other: BodyInertia) -> BodyInertia: ...
+    def __init__(
+        self,
+        mass: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        c_J: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        I_J: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = (
+            (0, 0, 0),
+            (0, 0, 0),
+            (0, 0, 0),
+        ),
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def seen_from(self, X_PB: Pose) -> BodyInertia:
+        """
+        The same body in frame P, where this one is given in frame B.
+        """
+    @property
+    def I_J(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        [kg m^2] about the centre of mass, shape (3, 3)
+        """
+    @property
+    def c_J(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] centre of mass, shape (3,)
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+
+class LagrangianPartials:
+    """
+    L = T - V at one (q, v), and all its first and second partials.
+
+    Read-only views, no copies. Rows of `L_vq` are velocities: `L_vq[i, j]` is the derivative by `v[i]`
+    and `q[j]`. Johnson and Murphey, "Discrete and continuous mechanics for tree representations of
+    mechanical systems", ICRA 2008, with composite quantities in place of sums over bodies.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def L_q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J/rad | N], shape (n,)
+        """
+    @property
+    def L_qq(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        shape (n, n)
+        """
+    @property
+    def L_v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J s/rad | N s] the momenta p, shape (n,)
+        """
+    @property
+    def L_vq(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        shape (n, n); row = velocity, column = coordinate
+        """
+    @property
+    def L_vv(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        the mass matrix, shape (n, n)
+        """
+    @property
+    def value(self) -> float:
+        """
+        [J] L = T - V
+        """
+
+class Sphere:
+    """
+    A ball about its frame's origin.
+    """
+    def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
+
+class Capsule:
+    """
+    All points within `radius` of the segment |z| <= `half_length`.
+    """
+    def __init__(
+        self,
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+        half_length: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def half_length(self) -> float:
+        """
+        [m] of the segment, without the caps
+        """
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
+
+class Box:
+    """
+    |x| <= half[0], |y| <= half[1], |z| <= half[2].
+    """
+    def __init__(
+        self, half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] half-extents, shape (3,)
+        """
+
+class Cylinder:
+    """
+    Axis z, |z| <= `half_length`.
+    """
+    def __init__(
+        self,
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+        half_length: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def half_length(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
+
+class HalfSpace:
+    """
+    The solid z <= 0 of its frame; only the root link may carry one.
+    """
+    def __init__(self) -> None: ...
+    def __repr__(self) -> str: ...
+
+class Gap:
+    """
+    The gap between two shapes a and b.
+
+    `p_WA - p_WB == phi * n_W` and `|n_W| == 1`; `n_W` points from b to a; `phi < 0` is penetration.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def F_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        [1/m] second partials of phi for translations of a against b, shape (3, 3)
+        """
+    @property
+    def n_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        unit normal from b to a, shape (3,)
+        """
+    @property
+    def p_WA(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] witness on a's surface, shape (3,)
+        """
+    @property
+    def p_WB(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] witness on b's surface, shape (3,)
+        """
+    @property
+    def phi(self) -> float:
+        """
+        [m] signed distance
+        """
+
+class PlacedShape:
+    """
+    A shape of a model and the joint frame that carries it.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def link(self) -> int:
+        """
+        index of its link in the model's `links`
+        """
+    @property
+    def name(self) -> str:
+        """
+        the link's name, "#k" added where a link has several
+        """
+    @property
+    def shape(self) -> Sphere | Capsule | Box | Cylinder | HalfSpace:
+        """
+        Sphere, Capsule, Box, Cylinder or HalfSpace
+        """
+
+class Pair:
+    """
+    Two shapes of a model whose gap is watched.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def a(self) -> int:
+        """
+        index in the model's `shapes`
+        """
+    @property
+    def b(self) -> int:
+        """
+        index in the model's `shapes`
+        """
+    @property
+    def touch(self) -> float:
+        """
+        [m] below this |phi| the shapes touch
+        """
+
+class State:
+    """
+    The state of a model: a value. Keep it, compare it, go back to it.
+
+    Its arrays are read-only. Made by `Model.state`, `Stepper.advance` and `Trajectory.state`.
+
+    Parameters
+    ----------
+    t : float
+        [s]
+    q : array_like, shape (n,)
+        [rad | m] coordinates.
+    p : array_like, shape (n,)
+        [kg m^2/s | kg m/s] conjugate momenta, p = L_v.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
+    def __copy__(self) -> State: ...
+    def __deepcopy__(self, memo: dict) -> State: ...
+    def __eq__(self, arg0: State) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        float,
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    ]: ...
+    def __init__(
+        self,
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [kg m^2/s | kg m/s] conjugate momenta, shape (n,)
+        """
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [rad | m] coordinates, shape (n,)
+        """
+    @property
+    def t(self) -> float:
+        """
+        [s]
+        """
+
+class JointType(enum.Enum):
+    """
+    Kinds of joints and their coordinates.
+
+    planar: x, y, yaw in the plane normal to the axis; floating: x, y, z, then yaw, pitch, roll
+    (singular at pitch = pi/2); spherical: yaw, pitch, roll; helical: turns and advances by `pitch`.
+    """
+
+    continuous = ...
+    fixed = ...
+    floating = ...
+    helical = ...
+    planar = ...
+    prismatic = ...
+    revolute = ...
+    spherical = ...
+
+class Link:
+    """
+    A rigid link of a model.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg] its own, without links that are fixed to it
+        """
+    @property
+    def name(self) -> str: ...
+
+class Coordinate:
+    """
+    A generalized coordinate and what the model's file says of it.
+
+    Limits, damping and friction are kept for the user; the stepper does not apply them.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def angular(self) -> bool:
+        """
+        True for [rad], False for [m]
+        """
+    @property
+    def damping(self) -> float:
+        """
+        [N m s/rad | N s/m]
+        """
+    @property
+    def effort(self) -> float:
+        """
+        [N m | N] limit, inf where there is none
+        """
+    @property
+    def friction(self) -> float:
+        """
+        [N m | N]
+        """
+    @property
+    def joint(self) -> str:
+        """
+        name of the joint that it belongs to
+        """
+    @property
+    def lower(self) -> float:
+        """
+        [rad | m] limit, -inf where there is none
+        """
+    @property
+    def name(self) -> str:
+        """
+        the joint's, `<joint>_x` ... where it has several
+        """
+    @property
+    def upper(self) -> float:
+        """
+        [rad | m] limit, inf where there is none
+        """
+    @property
+    def velocity(self) -> float:
+        """
+        [rad/s | m/s] limit, inf where none
+        """
+
+class JointInfo:
+    """
+    A joint of a model, as its author named it.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def child(self) -> str:
+        """
+        name of the child link
+        """
+    @property
+    def coordinates(self) -> list[int]:
+        """
+        indices of those that move it
+        """
+    @property
+    def name(self) -> str: ...
+    @property
+    def parent(self) -> str:
+        """
+        name of the parent link
+        """
+    @property
+    def type(self) -> JointType: ...
+
+class Gaps:
+    """
+    Gaps of all m pairs of a model at one configuration.
+
+    `p_WA - p_WB == phi * normal` for every pair. Arrays are read-only views, no copies.
+    """
+    def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
+    @property
+    def names(self) -> list[str]:
+        """
+        "a ~ b", m of them
+        """
+    @property
+    def normal(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        unit normals from b to a, shape (m, 3)
+        """
+    @property
+    def p_WA(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        [m] witnesses on a, shape (m, 3)
+        """
+    @property
+    def p_WB(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        [m] witnesses on b, shape (m, 3)
+        """
+    @property
+    def phi(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [m] shape (m,)
+        """
+    @property
+    def phi_q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [m/rad | 1] shape (m, n)
+        """
+    @property
+    def phi_qq(self) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
+        """
+        m arrays of shape (n, n)
+        """
+
+class Model:
+    """
+    A tree of rigid bodies: frozen, checked, cheap to copy.
+
+    Made by `load_urdf` or `ModelBuilder.build`. Wherever a method takes coordinates or velocities,
+    it takes an array of shape (n,) or a mapping from names to values, whose other values are 0.
+    """
+    def __repr__(self) -> str: ...
+    def coordinate(self, name: str) -> int:
+        """
+        Index of a coordinate; ModelError with the names there are.
+        """
+    def gaps(self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None) -> Gaps:
+        """
+        Gaps phi of all pairs with their first and second partials.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        Gaps
+        """
+    def kinetic_energy(self, state: State) -> float:
+        """
+        [J] at this state.
+        """
+    def lagrangian(
+        self,
+        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
+    ) -> LagrangianPartials:
+        """
+        L = T - V and all its first and second partials.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n,), or mapping of names to values
+            [rad/s | m/s]
+
+        Returns
+        -------
+        LagrangianPartials
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        """
+    def link(self, name: str) -> int:
+        """
+        Index of a link; ModelError with the names there are.
+        """
+    def mass_matrix(
+        self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        M(q) = L_vv.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n, n)
+        """
+    def pose(
+        self,
+        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
+        link: str | int,
+    ) -> Pose:
+        """
+        Pose of a link in the world.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), or mapping of names to values
+            [rad | m]
+        link : str or int
+            Its name or index.
+
+        Returns
+        -------
+        Pose
+            `.matrix()` is the homogeneous matrix.
+        """
+    def poses(
+        self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], link: str | int
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of a link at many configurations.
+
+        Parameters
+        ----------
+        q : array_like, shape (rows, n)
+            [rad | m]
+        link : str or int
+            Its name or index.
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows, 4, 4)
+            Homogeneous matrices.
+        """
+    def potential_energy(
+        self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+    ) -> float:
+        """
+        [J] of gravity, zero at the world's origin.
+        """
+    def shape_poses(
+        self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], shape: str | int
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        As `poses`, for the frame of a shape: its name or index.
+        """
+    def shape_velocities(
+        self,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        shape: str | int,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        As `velocities`, for the frame of a shape: its name or index.
+        """
+    def state(
+        self,
+        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None = None,
+        v: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None = None,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> State:
+        """
+        The state with these coordinates and velocities, p = M(q) v.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), or mapping of names to values
+            [rad | m]; coordinates that are not named are 0.
+        v : array_like, shape (n,), or mapping of names to values
+            [rad/s | m/s]
+        t : float
+            [s]
+
+        Returns
+        -------
+        State
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        """
+    def velocities(
+        self,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        link: str | int,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Velocities of a link at many configurations.
+
+        Parameters
+        ----------
+        q : array_like, shape (rows, n)
+            [rad | m]
+        v : array_like, shape (rows, n)
+            [rad/s | m/s]
+        link : str or int
+            Its name or index.
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows, 6)
+            Angular velocity [rad/s] and velocity of the link's origin [m/s], in world axes.
+        """
+    def velocity(
+        self, state: State
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Velocities v = M(q)^-1 p of a state.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,)
+            [rad/s | m/s]
+
+        Raises
+        ------
+        ModelError
+            On a state that does not fit the model.
+        StepError
+            Where the mass matrix is singular.
+        """
+    def without_collisions(self) -> Model:
+        """
+        A copy without any pair: bodies pass through each other.
+        """
+    @property
+    def coordinate_names(self) -> list[str]: ...
+    @property
+    def coordinates(self) -> list[Coordinate]: ...
+    @property
+    def gravity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m/s^2] shape (3,)
+        """
+    @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def joints(self) -> list[JointInfo]: ...
+    @property
+    def link_names(self) -> list[str]: ...
+    @property
+    def links(self) -> list[Link]: ...
+    @property
+    def n_q(self) -> int:
+        """
+        number of coordinates, n elsewhere
+        """
+    @property
+    def name(self) -> str: ...
+    @property
+    def pair_names(self) -> list[str]:
+        """
+        "a ~ b" of every pair
+        """
+    @property
+    def pairs(self) -> list[Pair]: ...
+    @property
+    def shapes(self) -> list[PlacedShape]: ...
+    @property
+    def source(self) -> str:
+        """
+        the URDF text it was read from, "" for a model built in code
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        what was understood but is not used
+        """
+
+class Mimic:
+    """
+    This joint's displacement is `multiplier * (displacement of joint) + offset`.
+
+    Parameters
+    ----------
+    joint : str
+        Name of the joint that is followed; both have one coordinate.
+    multiplier : float
+    offset : float
+        [rad | m]
+    """
+    def __init__(
+        self,
+        joint: str,
+        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def joint(self) -> str: ...
+    @property
+    def multiplier(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """
+        [rad | m]
+        """
+
+class ModelBuilder:
+    """
+    Describes a model link by link; `build` checks and freezes it.
+
+    All methods return the builder, so that calls can be chained. Local mistakes raise ModelError at
+    once, those that need the whole (unknown parents, cycles, joints that move no mass) in `build`.
+
+    Parameters
+    ----------
+    name : str
+        Name of the model.
+    root : str
+        Name of the link that is fixed to the world; its frame is the world frame.
+    """
+    def __init__(self, name: str = "model", root: str = "world") -> None: ...
+    def __repr__(self) -> str: ...
+    def add_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
+        """
+        Lets two links pass through each other: no gap is watched between them.
+
+        Parameters
+        ----------
+        link_a, link_b : str
+        """
+    def add_half_space(
+        self,
+        name: str,
+        normal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Adds the solid below the plane normal.x = offset, fixed to the world.
+
+        Parameters
+        ----------
+        name : str
+            As in names of pairs.
+        normal : array_like, shape (3,)
+            Out of the solid, of any length but 0.
+        offset : float
+            [m]
+        """
+    def add_joint(
+        self,
+        name: str,
+        type: JointType,
+        *,
+        parent: str,
+        child: str,
+        X_PJ: Pose = ...,
+        axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (1, 0, 0),
+        pitch: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        mimic: Mimic | None = None,
+        lower: typing.SupportsFloat | typing.SupportsIndex = ...,
+        upper: typing.SupportsFloat | typing.SupportsIndex = ...,
+        velocity: typing.SupportsFloat | typing.SupportsIndex = ...,
+        effort: typing.SupportsFloat | typing.SupportsIndex = ...,
+        damping: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Adds a joint between two links.
+
+        Parameters
+        ----------
+        name : str
+        type : JointType
+        parent, child : str
+            Links; they may be added later.
+        X_PJ : Pose
+            The joint's frame, which is the child's, in the parent link's frame at displacement 0.
+        axis : array_like, shape (3,)
+            In the joint's frame, of any length but 0.
+        pitch : float
+            [m/rad] helical joints only.
+        mimic : Mimic, optional
+            The joint that this one follows.
+        lower, upper : float
+            [rad | m] limits; kept for the user, not applied.
+        velocity, effort : float
+            [rad/s | m/s], [N m | N] limits; kept for the user, not applied.
+        damping, friction : float
+            [N m s/rad | N s/m], [N m | N]; kept for the user, not applied.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, a zero axis, limits in the wrong order, and numbers that are none.
+        """
+    def add_link(self, name: str, inertia: BodyInertia = ...) -> ModelBuilder:
+        """
+        Adds a link.
+
+        Parameters
+        ----------
+        name : str
+        inertia : BodyInertia
+            In the link's frame; none where the link has no mass.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken and on an inertia that no body can have.
+        """
+    def add_shape(
+        self, link: str, shape: Sphere | Capsule | Box | Cylinder | HalfSpace, X_LG: Pose = ...
+    ) -> ModelBuilder:
+        """
+        Adds a shape that can touch others.
+
+        It is named after its link, with "#2" added for the link's second, and so on.
+
+        Parameters
+        ----------
+        link : str
+        shape : Sphere, Capsule, Box, Cylinder or HalfSpace
+        X_LG : Pose
+            The shape's frame in the link's frame.
+
+        Raises
+        ------
+        ModelError
+            On sizes that are not finite and positive, and on a half-space that is not the root link's.
+        """
+    def add_warning(self, text: str) -> ModelBuilder:
+        """
+        Adds to the model's `warnings`; returns the builder.
+        """
+    def build(self) -> Model:
+        """
+        Checks the whole and freezes it.
+
+        Returns
+        -------
+        Model
+
+        Raises
+        ------
+        ModelError
+            With `element` and `name` of the culprit.
+        """
+    def check(self) -> None:
+        """
+        The checks of `build` alone; raises ModelError.
+        """
+    def set_gravity(
+        self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> ModelBuilder:
+        """
+        Sets gravity; it is (0, 0, -9.81) otherwise.
+
+        Parameters
+        ----------
+        gravity : array_like, shape (3,)
+            [m/s^2]
+        """
+    @property
+    def warnings(self) -> list[str]: ...
+
+class ImpactLaw(enum.IntEnum):
+    """
+    Which energy an impact conserves.
+
+    nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
+    discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
+    Collisions in a Variational Framework", (11c); the step is exactly symplectic.
+    """
+
+    discrete_energy = ...
+    nodal_energy = ...
+
+class ImpactOrder(enum.Enum):
+    """
+    Which of the approaching contacts is next.
+
+    fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index.
+    """
+
+    fastest = ...
+    index = ...
+
+class StepOptions:
+    """
+    How to step.
+
+    Parameters
+    ----------
+    h : float
+        [s] step.
+    law : ImpactLaw
+    collisions : bool
+        False: bodies pass through each other.
+    max_iterations : int
+        Newton iterations an arc; 2 to 4 are usual.
+    max_impacts : int
+        Impacts a step; more is a body bouncing faster than h can follow.
+    max_impulses : int
+        Impulses an impact.
+    rest : float
+        Gap rates below this part of sqrt(2 E G) are rest, not approach.
+    simultaneous : float
+        A contact that would close within this part of h joins an impact.
+    """
+    def __init__(
+        self,
+        h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        law: ImpactLaw = ...,
+        collisions: bool = True,
+        *,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
+        max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
+        max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
+        rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
+        simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def collisions(self) -> bool: ...
+    @property
+    def h(self) -> float:
+        """
+        [s]
+        """
+    @property
+    def law(self) -> ImpactLaw: ...
+    @property
+    def max_impacts(self) -> int: ...
+    @property
+    def max_impulses(self) -> int: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @property
+    def rest(self) -> float: ...
+    @property
+    def simultaneous(self) -> float: ...
+
+class ImpactOutcome:
+    """
+    Velocity after an impact, and the impulses that led there, in order.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def impulses(self) -> numpy.ndarray:
+        """
+        structured array: "pair" (row of N), "lambda" [N s]
+        """
+    @property
+    def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        velocity after, shape (n,)
+        """
+
+class Impact:
+    """
+    All impulses at one instant, with pairs by name.
+
+    Attributes
+    ----------
+    t : float
+        [s]
+    pairs : list of str
+        Names of the pairs, in the order of the impulses; a pair may occur more than once.
+    lambdas : numpy.ndarray, shape (impulses,)
+        [N s] the impulses, `p += lambda * phi_q`.
+    contacts : int
+        Pairs that touched.
+    law : ImpactLaw
+        The law that was used.
+    fallback : bool
+        discrete_energy was asked for and nodal_energy used, an impulse being too weak for it.
+    """
+    def __init__(
+        self,
+        t: typing.SupportsFloat | typing.SupportsIndex,
+        pairs: collections.abc.Sequence[str],
+        lambdas: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        *,
+        contacts: typing.SupportsInt | typing.SupportsIndex,
+        law: ImpactLaw,
+        fallback: bool,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def contacts(self) -> int: ...
+    @property
+    def fallback(self) -> bool: ...
+    @property
+    def lambdas(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def law(self) -> ImpactLaw: ...
+    @property
+    def pairs(self) -> list[str]: ...
+    @property
+    def t(self) -> float: ...
+
+class StepReport:
+    """
+    What happened in a step.
+
+    Attributes
+    ----------
+    iterations : int
+        Newton iterations over all arcs tried.
+    arcs : int
+        Arcs that the step is made of; 1 without impacts.
+    sustained : int
+        Contacts of its arcs that were held closed by a force.
+    residual : float
+        [largest momentum] of the worst arc.
+    impacts : list of Impact
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def arcs(self) -> int: ...
+    @property
+    def impacts(self) -> list[Impact]: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def sustained(self) -> int: ...
+
+class Stepper:
+    """
+    The variational impact stepper: one step of size h with all impacts inside it.
+
+    Deterministic: the same sequence of states in gives the same bits out. A stepper that several
+    threads use serves them one after the other; make one a thread.
+
+    Parameters
+    ----------
+    model : Model
+    h : float
+        [s] step.
+    law : ImpactLaw
+    collisions, max_iterations, max_impacts, max_impulses, rest, simultaneous
+        As in `StepOptions`.
+
+    Raises
+    ------
+    ModelError
+        Where an option is out of its range.
+    """
+    def __init__(
+        self,
+        model: Model,
+        h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        law: ImpactLaw = ...,
+        *,
+        collisions: bool = True,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
+        max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
+        max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
+        rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
+        simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def advance(self, state: State) -> State:
+        """
+        The state h later; `state` is not changed.
+
+        Parameters
+        ----------
+        state : State
+
+        Returns
+        -------
+        State
+
+        Raises
+        ------
+        ModelError
+            On a state that does not fit the model or overlaps; names pairs and depths.
+        StepError
+            When an arc does not converge or the impacts of the step do not end.
+        JammedError
+            When the impulses at one instant do not end.
+        """
+    @property
+    def model(self) -> Model: ...
+    @property
+    def options(self) -> StepOptions: ...
+    @property
+    def report(self) -> StepReport:
+        """
+        StepReport of the step before.
+        """
+
+class Trajectory:
+    """
+    The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
+    """
+    @property
+    def complete(self) -> bool: ...
+    @property
+    def energy_error(self) -> float: ...
+    @property
+    def impacts(self) -> typing.Any:
+        """
+        structured array: t, first, count, contacts, law, fallback
+        """
+    @property
+    def impulses(self) -> typing.Any:
+        """
+        structured array: pair, lambda
+        """
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def kinetic(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J] shape (rows,)
+        """
+    @property
+    def model(self) -> Model: ...
+    @property
+    def options(self) -> StepOptions: ...
+    @property
+    def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        shape (rows, n)
+        """
+    @property
+    def potential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J] shape (rows,)
+        """
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [rad | m] shape (rows, n)
+        """
+    @property
+    def residual(self) -> float: ...
+    @property
+    def shadow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J] shape (rows,)
+        """
+    @property
+    def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [s] shape (rows,)
+        """
+    @property
+    def total(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [J] shape (rows,)
+        """
+    @property
+    def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [rad/s | m/s] shape (rows, n)
+        """
+
+class Energies:
+    """
+    Energies of one state.
+    """
+    @property
+    def kinetic(self) -> float:
+        """
+        [J]
+        """
+    @property
+    def potential(self) -> float:
+        """
+        [J]
+        """
+    @property
+    def shadow(self) -> float:
+        """
+        [J] H - h^2 kappa / 24
+        """
+
+def energies(
+    model: Model, state: State, h: typing.SupportsFloat | typing.SupportsIndex
+) -> Energies:
+    """
+    Energies of one state.
+
+    Parameters
+    ----------
+    model : Model
+    state : State
+    h : float
+        [s] step of the shadow energy H - h^2 kappa / 24, which a fixed step conserves to O(h^4).
+
+    Returns
+    -------
+    Energies
+    """
+
+def gap(
+    a: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    X_WA: Pose,
+    b: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    X_WB: Pose,
+) -> Gap:
+    """
+    Signed distance, normal, witness points and curvature of two shapes.
+
+    Parameters
+    ----------
+    a, b : Sphere, Capsule, Box, Cylinder or HalfSpace
+    X_WA, X_WB : Pose
+        Where they are.
+
+    Returns
+    -------
+    Gap
+
+    Raises
+    ------
+    ModelError
+        Where these two kinds of shape have no gap function; see `gap_table`.
+    """
+
+def gap_table() -> list[tuple[str, str]]:
+    """
+    The pairs of shapes that have a gap function, by name.
+
+    Returns
+    -------
+    list of (str, str)
+        Generated from the dispatch; the order within a pair does not matter.
+    """
+
+def has_gap(
+    a: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    b: Sphere | Capsule | Box | Cylinder | HalfSpace,
+) -> bool:
+    """
+    True where `gap` knows the two kinds of shape, in either order.
+    """
+
+def read_urdf(
+    path_or_text: str | os.PathLike[str],
+    *,
+    gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, -9.81),
+    package_dirs: collections.abc.Iterable[str | os.PathLike[str]] = (),
+    root_joint: JointType = ...,
+) -> ModelBuilder:
+    """
+    Reads URDF into a ModelBuilder, to add to it before `build`.
+
+    Parameters
+    ----------
+    path_or_text : str or os.PathLike
+        A file, or URDF text where it begins with "<".
+    gravity : array_like, shape (3,)
+        [m/s^2]
+    package_dirs : sequence of str or os.PathLike
+        Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
+    root_joint : JointType
+        How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
+
+    Returns
+    -------
+    ModelBuilder
+        Its `warnings` name what was understood but is not used.
+
+    Raises
+    ------
+    ModelError
+        With file and line, `element` and `name` of the culprit.
+    """
+
+def resolve_impact(
+    M: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    N: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    *,
+    restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    order: ImpactOrder = ...,
+    max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
+) -> ImpactOutcome:
+    """
+    Impulses at one instant: while some contact approaches, reflect on one that does.
+
+    In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e) u_i / G_ii`,
+    `u += G[:, i] lambda_i`. Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational
+    Framework", (4), (5) and section III-D. Ends after finitely many impulses if e = 1 and the cone
+    {v: N v >= 0} has an interior.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        Mass matrix, positive definite.
+    N : array_like, shape (m, n)
+        Rows are gradients of the gaps.
+    v : array_like, shape (n,)
+        Velocity before.
+    restitution : float
+        e in [0, 1].
+    order : ImpactOrder
+    max_impulses : int
+
+    Returns
+    -------
+    ImpactOutcome
+        `v`, and `impulses` with the fields "pair" (row of N) and "lambda".
+
+    Raises
+    ------
+    ModelError
+        On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1].
+    JammedError
+        When the impulses do not end.
+    """
+
+def rotation_from_rpy(
+    roll: typing.SupportsFloat | typing.SupportsIndex,
+    pitch: typing.SupportsFloat | typing.SupportsIndex,
+    yaw: typing.SupportsFloat | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+    """
+    Rotation by fixed-axis roll, pitch and yaw, as in URDF: `Rz(yaw) Ry(pitch) Rx(roll)`.
+
+    Parameters
+    ----------
+    roll, pitch, yaw : float
+        [rad]
+
+    Returns
+    -------
+    numpy.ndarray, shape (3, 3)
+    """
+
+def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace) -> str:
+    """
+    "sphere", "capsule", "box", "cylinder" or "half_space".
+    """
+
+def simulate(
+    model: Model,
+    start: State,
+    duration: typing.SupportsFloat | typing.SupportsIndex,
+    *,
+    options: StepOptions = ...,
+    record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    progress: collections.abc.Callable[[float], typing.Any] | None = None,
+) -> Trajectory:
+    """
+    Runs round(duration / h) steps from `start`; row 0 is `start`.
+
+    Parameters
+    ----------
+    model : Model
+    start : State
+    duration : float
+        [s] a whole number of steps.
+    options : StepOptions
+    record_every : int
+        Steps between recorded rows.
+    progress : callable, optional
+        Called about ten times a second with the part done in [0, 1]; what it returns is not used.
+
+    Returns
+    -------
+    Trajectory
+        Not `complete` where Ctrl-C (KeyboardInterrupt) stopped it.
+
+    Raises
+    ------
+    ModelError
+        On a duration or h that is not positive, a duration that is no whole number of steps, a start
+        that does not fit the model or overlaps.
+    StepError, JammedError
+        As `Stepper.advance`.
+    """
+
+def solid_sphere(
+    mass: typing.SupportsFloat | typing.SupportsIndex,
+    radius: typing.SupportsFloat | typing.SupportsIndex,
+) -> BodyInertia:
+    """
+    Inertia of a homogeneous ball about its centre.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    radius : float
+        [m]
+
+    Returns
+    -------
+    BodyInertia
+    """
+
+__version__: str = "0.1.0"
+discrete_energy: ImpactLaw
+nodal_energy: ImpactLaw
