@@ -7,7 +7,8 @@ namespace {
 
 Vec9 nine(const Vec6& a, const Vec3& b) {
   Vec9 x;
-  x << a, b;
+  x.head<6>() = a;
+  x.tail<3>() = b;
   return x;
 }
 

@@ -9,34 +9,34 @@ double displacement(const Drive& drive, const VecRef& q) {
   return drive.multiplier * q[drive.coordinate] + drive.offset;
 }
 
-/// R_PJ(0) Rz(s) without the multiplications by the zeros of Rz.
-Mat3 turned(const Mat3& R, double s) {
+/// R <- R Rz(s), without the multiplications by the zeros of Rz.
+void turn(double s, Mat3& R) {
   const double c = std::cos(s), n = std::sin(s);
-  Mat3 out;
-  out.col(0) = c * R.col(0) + n * R.col(1);
-  out.col(1) = c * R.col(1) - n * R.col(0);
-  out.col(2) = R.col(2);
-  return out;
-}
-
-/// How far joint frame i is from its parent's, in world axes, at displacement s along R's z.
-Vec3 step_from_parent(const Tree& tree, int i, const Mat3& R_WP, const Vec3& axis_W, double s) {
-  const Joint& joint = tree.joint[i];
-  const Vec3 offset = R_WP * tree.X_PJ[i].p;
-  if (joint.kind == Joint::Kind::revolute) return offset;
-  return offset + axis_W * (joint.kind == Joint::Kind::prismatic ? s : joint.pitch * s);
+  const Vec3 x = R.col(0);
+  R.col(0) = c * x + n * R.col(1);
+  R.col(1) = c * R.col(1) - n * x;
 }
 
 void set_rotation(const Tree& tree, int i, double s, Kinematics& kin) {
   const int parent = tree.parent[i];
-  const Mat3 R = parent < 0 ? tree.X_PJ[i].R : Mat3(kin.joint[parent].R * tree.X_PJ[i].R);
-  kin.joint[i].R = tree.joint[i].turns() ? turned(R, s) : R;
+  Mat3& R = kin.joint[i].R;
+  if (parent < 0) {
+    R = tree.X_PJ[i].R;
+  } else {
+    R.noalias() = kin.joint[parent].R * tree.X_PJ[i].R;
+  }
+  if (tree.joint[i].turns()) turn(s, R);
 }
 
+/// How far joint frame i is from its parent's, in world axes. Needs the rotations of both.
 Vec3 step_of(const Tree& tree, int i, const VecRef& q, const Kinematics& kin) {
   const int parent = tree.parent[i];
-  const Mat3 R_WP = parent < 0 ? Mat3(Mat3::Identity()) : kin.joint[parent].R;
-  return step_from_parent(tree, i, R_WP, kin.joint[i].R.col(2), displacement(tree.drive[i], q));
+  const Joint& joint = tree.joint[i];
+  Vec3 step = tree.X_PJ[i].p;
+  if (parent >= 0) step = kin.joint[parent].R * step;
+  if (joint.kind == Joint::Kind::revolute) return step;
+  const double s = displacement(tree.drive[i], q);
+  return step + kin.joint[i].R.col(2) * (joint.turns() ? joint.pitch * s : s);
 }
 
 /// Places the joints from the root to the reference joint so that the latter is at O exactly.

@@ -40,7 +40,8 @@ inline auto linear(const Vec6& x) { return x.tail<3>(); }
 
 inline Vec6 spatial(const Vec3& angular, const Vec3& linear) {
   Vec6 x;
-  x << angular, linear;
+  x.head<3>() = angular;
+  x.tail<3>() = linear;
   return x;
 }
 
