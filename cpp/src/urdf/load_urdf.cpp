@@ -1,3 +1,6 @@
+// The way of a file: text -> XML with lines (document) -> checks against the schema, of elements,
+// of the tree -> rewritten for urdfdom -> parsed by it -> ModelBuilder. What the builder refuses
+// gets its line from the document.
 #include "saltus/urdf/load_urdf.hpp"
 
 #include <cmath>
@@ -130,7 +133,7 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   check_schema(document, warnings);
   check_elements(document, warnings);
   const std::string root = check_tree(document);
-  const urdf::ModelInterfaceSharedPtr parsed = parse(document);
+  const std::shared_ptr<urdf::ModelInterface> parsed = parse(document);
 
   const bool is_fixed = options.root_joint == JointType::fixed;
   const std::string world = is_fixed ? root : unused_name(document, "link", "world");

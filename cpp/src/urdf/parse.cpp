@@ -37,12 +37,12 @@ class Capture final : public console_bridge::OutputHandler {
 
 }  // namespace
 
-urdf::ModelInterfaceSharedPtr parse(const Document& document) {
+std::shared_ptr<urdf::ModelInterface> parse(const Document& document) {
   static std::mutex one_at_a_time;
   const std::string text = rewrite(document);
   const std::lock_guard lock(one_at_a_time);
   Capture capture;
-  urdf::ModelInterfaceSharedPtr model;
+  std::shared_ptr<urdf::ModelInterface> model;
   try {
     model = urdf::parseURDF(text);
   } catch (const std::runtime_error& error) {  // as urdf::ParseError

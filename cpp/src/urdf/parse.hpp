@@ -3,6 +3,7 @@
 
 #include <urdf_model/model.h>
 
+#include <memory>
 #include <string>
 
 #include "urdf/document.hpp"
@@ -11,6 +12,6 @@ namespace saltus::reader {
 
 /// What urdfdom makes of the rewritten document. Thread-safe.
 /// @throws ModelError with urdfdom's own messages.
-urdf::ModelInterfaceSharedPtr parse(const Document& document);
+std::shared_ptr<urdf::ModelInterface> parse(const Document& document);
 
 }  // namespace saltus::reader
