@@ -16,9 +16,10 @@
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
 // Not used, and named in a warning: collision meshes and other shapes without a gap function,
-// elements and attributes that URDF does not know. Visuals, materials, transmissions, safety
-// controllers and other programs' elements (gazebo, sensor, `ns:name`) are skipped: they move
-// nothing. The text itself stays available as the model's `source`.
+// elements and attributes that URDF does not know, `<mimic>` of a fixed joint. Skipped without a
+// word: visuals (but one warning tells of their missing meshes), materials, transmissions, safety
+// controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
+// `ns:name`). The text itself stays available as the model's `source`.
 #pragma once
 
 #include <string>
