@@ -105,12 +105,13 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     file["impacts"] = run.impacts.astype(np.dtype(fields))
     for name in ("coordinate_names", "pair_names"):
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
-    if run.model is None or not run.model.source:
+    root_joint = None if run.model is None else _root_joint(run.model)
+    if run.model is None or root_joint is None:
         file.attrs["model"] = "not in this file: it was built in code"
         return
     file.attrs["model"] = "URDF text in urdf"
     file.attrs["gravity"] = run.model.gravity
-    file.attrs["root_joint"] = _root_joint(run.model).name
+    file.attrs["root_joint"] = root_joint.name
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
@@ -166,13 +167,26 @@ def _check_model(
             )
 
 
-def _root_joint(model: Model) -> JointType:
-    """Return how the root link of the URDF text hangs on the world.
+def _root_joint(model: Model) -> JointType | None:
+    """Return the `root_joint` with which `load_urdf` makes this model of its text.
 
-    A joint that `load_urdf` added is found by reading the text without it.
+    None where there is no text, or where the model was changed after it was read: links, joints,
+    shapes or pairs then differ.
     """
-    fixed = read_urdf(model.source).build()
-    if fixed.coordinate_names == model.coordinate_names:
-        return JointType.fixed
-    types = [joint.type for joint in model.joints if joint.parent == model.links[0].name]
-    return types[0] if len(types) == 1 else JointType.fixed
+    if not model.source:
+        return None
+    # The joint that load_urdf added, if it did, is the only one below the model's root.
+    types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
+    for root_joint in (JointType.fixed, *types):
+        try:
+            again = read_urdf(model.source, root_joint=root_joint).build()
+        except ModelError:
+            continue
+        if _names(again if model.pairs else again.without_collisions()) == _names(model):
+            return root_joint
+    return None
+
+
+def _names(model: Model) -> tuple[list[str], ...]:
+    shapes = [shape.name for shape in model.shapes]
+    return model.link_names, model.joint_names, model.coordinate_names, shapes, model.pair_names

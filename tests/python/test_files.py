@@ -81,6 +81,23 @@ def test_a_model_built_in_code_is_not_in_the_file(tmp_path):
         saltus.load(tmp_path / "ball.h5", model=cradle_run().model)
 
 
+def test_a_model_changed_after_reading_is_not_in_the_file(tmp_path):
+    text = saltus.scenes.cradle(2)
+    changed = saltus.read_urdf(text).add_half_space("floor", (0, 0, 1), -1).build()
+    saltus.simulate(changed, duration=0.1).save(tmp_path / "run.h5")
+    assert saltus.load(tmp_path / "run.h5").model is None
+    again = saltus.load(tmp_path / "run.h5", model=changed)
+    assert again.pair_names == tuple(changed.pair_names)
+
+
+@pytest.mark.parametrize("root_joint", saltus.JointType)
+def test_a_single_link_with_any_root(tmp_path, root_joint):
+    text = chain_on_a_body(1).partition("<joint")[0] + "</robot>"
+    model = saltus.load_urdf(text, root_joint=root_joint)
+    saltus.simulate(model, duration=0.1).save(tmp_path / "run.h5")
+    assert saltus.load(tmp_path / "run.h5").model.coordinate_names == model.coordinate_names
+
+
 def test_files_that_are_none(tmp_path):
     with pytest.raises(saltus.ModelError, match="no such file"):
         saltus.load(tmp_path / "nowhere.h5")
