@@ -1,15 +1,19 @@
 #!/bin/sh
-# setup.sh [EXTRA,...]: leaves .venv with this package, its test and demo packages, and those of the extras named.
-# Does nothing when the sources are those of the last time.
+# setup.sh [EXTRA...]: leaves .venv with this package, its test and demo packages, and those of the extras named now
+# or earlier. Does nothing when the sources are those of the last time and no extra is new.
 set -eu
 cd "$(dirname "$0")/.."
-extras="test${1:+,$1}"
 
-# The stamp holds a checksum over contents, not times: a checkout of other branches and back rebuilds nothing.
-stamp=".venv/.saltus-$extras"
+# The stamp holds a checksum over contents, not times (a checkout of other branches and back rebuilds nothing), and the
+# extras that are installed.
+stamp=.venv/.saltus
 sources="$(find CMakeLists.txt pyproject.toml cpp python/bindings python/saltus urdf examples/setup.sh \
   -type f ! -name '*.pyc' -exec cksum {} + | LC_ALL=C sort | cksum)"
-if [ -x .venv/bin/python ] && [ -e "$stamp" ] && [ "$(cat "$stamp")" = "$sources" ]; then
+extras="$(sed -n 2p "$stamp" 2>/dev/null || true)"
+for extra in test "$@"; do
+  case ",$extras," in *",$extra,"*) ;; *) extras="${extras:+$extras,}$extra" ;; esac
+done
+if [ -x .venv/bin/python ] && [ "$(cat "$stamp" 2>/dev/null)" = "$(printf '%s\n%s' "$sources" "$extras")" ]; then
   exit 0
 fi
 
@@ -51,6 +55,7 @@ echo "setup: installing into .venv and compiling; the first time takes a few min
 # shellcheck disable=SC2086  # several words are meant
 pip install -r .venv/build-requires.txt $tools
 # scikit-build-core imports packages that offer a CMake prefix, ours among them: a broken one could not be replaced.
+printf 'unfinished\n%s\n' "$extras" >"$stamp"
 pip uninstall -y saltus 2>/dev/null
 pip install --no-build-isolation ".[$extras]"
-echo "$sources" >"$stamp"
+printf '%s\n%s\n' "$sources" "$extras" >"$stamp"
