@@ -81,9 +81,13 @@ TEST(State, MistakesAreNamed) {
             "no coordinate \"elbw\"; there are shoulder, elbow");
   EXPECT_EQ(refusal([&] { model.state({}, {{"wrist", 0.3}}); }),
             "no coordinate \"wrist\"; there are shoulder, elbow");
-  EXPECT_EQ(refusal([&] { model.state({{"elbow", nan}}); }), "q[1] = nan is not finite");
-  EXPECT_EQ(refusal([&] { model.state({}, {{"shoulder", inf}}); }), "v[0] = inf is not finite");
+  EXPECT_EQ(refusal([&] { model.state({{"elbow", nan}}); }),
+            "coordinate \"elbow\" = nan is not finite");
+  EXPECT_EQ(refusal([&] { model.state({}, {{"shoulder", inf}}); }),
+            "coordinate \"shoulder\" = inf is not finite");
   EXPECT_EQ(refusal([&] { model.state({}, {}, nan); }), "t is not finite");
+  EXPECT_EQ(refusal([&] { model.state(Eigen::Vector2d(0, nan), VecX::Zero(2)); }),
+            "q[1] = nan is not finite");
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(3), VecX::Zero(2)); }),
             "q has 3 entries; the model has 2 coordinates");
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(2), VecX::Zero(1)); }),
