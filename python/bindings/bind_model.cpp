@@ -30,8 +30,8 @@ void bind_state(py::module_& m) {
       .def(
           "__deepcopy__", [](const State& s, const py::object&) { return s; }, py::arg("memo"))
       .def("__repr__", &show_state)
-      .def(py::pickle([](const State& s) { return py::make_tuple(s.t, s.q, s.p); },
-                      [](const py::typing::Tuple<double, VecX, VecX>& t) {
+      .def(py::pickle([](const State& s) -> py::tuple { return py::make_tuple(s.t, s.q, s.p); },
+                      [](const py::tuple& t) {
                         return State{t[0].cast<double>(), t[1].cast<VecX>(), t[2].cast<VecX>()};
                       }));
 }

@@ -63,10 +63,9 @@ void bind_spatial(py::module_& m) {
           "__mul__", [](const Pose& a, const Vec3& p) { return Vec3(a * p); }, py::arg("p_B"),
           py::is_operator())
       .def("__repr__", &show)
-      .def(py::pickle([](const Pose& X) { return py::make_tuple(X.p, X.R); },
-                      [](const py::typing::Tuple<Vec3, Mat3>& t) {
-                        return Pose{t[1].cast<Mat3>(), t[0].cast<Vec3>()};
-                      }));
+      .def(py::pickle(
+          [](const Pose& X) -> py::tuple { return py::make_tuple(X.p, X.R); },
+          [](const py::tuple& t) { return Pose{t[1].cast<Mat3>(), t[0].cast<Vec3>()}; }));
   m.def("rotation_from_rpy", &rotation_from_rpy, rpy_doc, py::arg("roll"), py::arg("pitch"),
         py::arg("yaw"));
 }

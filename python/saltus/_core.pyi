@@ -108,12 +108,7 @@ class Pose:
     R : array_like, shape (3, 3)
         Rotation; its columns are B's axes in A.
     """
-    def __getstate__(
-        self,
-    ) -> tuple[
-        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"],
-        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"],
-    ]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
@@ -405,15 +400,9 @@ class State:
 
     __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
     def __copy__(self) -> State: ...
-    def __deepcopy__(self, memo: dict) -> State: ...
-    def __eq__(self, arg0: State) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[
-        float,
-        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
-        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
-    ]: ...
+    def __deepcopy__(self, memo: typing.Any) -> State: ...
+    def __eq__(self, arg0: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         t: typing.SupportsFloat | typing.SupportsIndex,

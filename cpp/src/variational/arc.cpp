@@ -7,10 +7,6 @@
 namespace saltus {
 namespace {
 
-using SmallMat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                               most_constraints, most_constraints>;
-using SmallVec = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_constraints, 1>;
-
 /// What a body adds to the size of the terms that its subtree's H and g are sums of. Products of
 /// norms, so that what cancels inside a cross product counts too. Needs first_pass, no more.
 ArcScratch::TermSize body_terms(const Vec3& gravity, const JointMotion& m, const Inertia& I) {
@@ -98,7 +94,7 @@ void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v,
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < m; ++j) S(i, j) = a.constraints[i].row.dot(a.constraints[j].column);
   }
-  const SmallVec dlambda = Eigen::FullPivLU<SmallMat>(S).solve(rhs);
+  const SmallVec dlambda = solve_small(S, rhs);
   for (int i = 0; i < m; ++i) {
     a.constraints[i].lambda += dlambda[i];
     s.dv += dlambda[i] * a.constraints[i].column;

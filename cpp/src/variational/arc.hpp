@@ -22,10 +22,9 @@
 #include "saltus/lagrangian/energy.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
+#include "variational/small_system.hpp"
 
 namespace saltus {
-
-inline constexpr int most_constraints = 32;  ///< of one arc; bounds the dense Schur complement
 
 struct ArcConstraint {
   enum class Kind { hold, launch };

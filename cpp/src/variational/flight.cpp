@@ -178,6 +178,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     if (hit.pair < 0) return FlightOutcome::arrived;
     const bool hop = is_hop(node, hit.pair);
     f.start_v = f.arc.v;
+    f.closing = hit.pair;
     switch (find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f)) {
       case ImpactTime::found:
         // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far
@@ -195,6 +196,8 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         break;
       case ImpactTime::not_converged:
         return FlightOutcome::not_converged;
+      case ImpactTime::not_located:
+        return FlightOutcome::impact_not_located;
     }
   }
   return FlightOutcome::no_progress;

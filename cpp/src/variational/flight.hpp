@@ -23,6 +23,7 @@ struct Flight {
 
   Arc arc;  ///< the result
   GuessHistory history;
+  int closing = -1;    ///< pair whose impact was sought last
   int iterations = 0;  ///< Newton iterations of all arcs tried
 
   // scratch
@@ -35,7 +36,13 @@ struct Flight {
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
 };
 
-enum class FlightOutcome { arrived, not_converged, too_many_contacts, no_progress };
+enum class FlightOutcome {
+  arrived,
+  not_converged,
+  too_many_contacts,
+  no_progress,
+  impact_not_located,  ///< of the pair flight.closing
+};
 
 /// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs
 /// that it holds closed are marked in node.held.

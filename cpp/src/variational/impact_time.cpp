@@ -70,7 +70,7 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, int pair, 
     f.arc.v += (next - tau) * f.rate;
     tau = next;
   }
-  return ImpactTime::not_converged;
+  return ImpactTime::not_located;
 }
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.

@@ -11,6 +11,7 @@ enum class ImpactTime {
   missed,         ///< the chord grazes what the arc passes: no impact
   at_rest,        ///< the pair would hop lower than pair.touch: it rests
   not_converged,  ///< an arc on the way did not converge
+  not_located,    ///< the root was not found in the bounded number of arcs
 };
 
 /// Solves the arc of duration tau from the node with the flight's active constraints.

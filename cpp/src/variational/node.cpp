@@ -1,10 +1,11 @@
 #include "variational/node.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "saltus/lagrangian/energy.hpp"
+#include "variational/small_system.hpp"
 
 namespace saltus {
 namespace {
@@ -118,7 +119,6 @@ Node::Node(const ModelData& model)
   const std::size_t reserved = std::min(model.pairs.size(), contacts_reserved);
   contacts.assign(reserved, fresh_contact(n));
   G.reserve(reserved * reserved);
-  settled.reserve(reserved);
   impulses.reserve(impulses_reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
@@ -152,31 +152,29 @@ bool impact_pending(const Node& node) {
 }
 
 void settle_held_contacts(const ModelData& model, Node& node) {
-  int held = 0;
-  for (int i = 0; i < node.touching; ++i) held += node.held[node.contacts[i].pair];
-  if (held == 0) return;
-  set_G(model, node);
-  const int m = node.touching;
-  // Projected Gauss-Seidel on 0 <= lambda, u >= 0 of the held contacts; few contacts, well
-  // conditioned, and what 200 sweeps leave is far below epsilon_u
-  std::vector<double>& lambda = node.settled;
-  lambda.assign(static_cast<std::size_t>(m), 0);
-  for (int sweep = 0; sweep < 200; ++sweep) {
-    double change = 0;
-    for (int i = 0; i < m; ++i) {
-      const Contact& c = node.contacts[i];
-      if (!node.held[c.pair]) continue;
-      const double u = c.n.dot(node.v);
-      const double next = std::max(0.0, lambda[i] - u / node.G[i * m + i]);
-      const double step = next - lambda[i];
-      if (step == 0) continue;
-      lambda[i] = next;
-      apply(node, i, step);
-      change = std::max(change, std::abs(step) * node.G[i * m + i]);
-    }
-    if (change == 0) break;
+  std::array<int, most_constraints> held;
+  int count = 0;
+  for (int i = 0; i < node.touching && count < most_constraints; ++i) {
+    if (node.held[node.contacts[i].pair]) held[count++] = i;
   }
-  for (int i = 0; i < m; ++i) {
+  if (count == 0) return;
+  set_G(model, node);
+  SmallVec lambda;
+  // impulses only push: those that would pull are let go, the worst first
+  for (; count > 0; --count) {
+    SmallMat G(count, count);
+    SmallVec u(count);
+    for (int i = 0; i < count; ++i) {
+      u[i] = node.contacts[held[i]].u;
+      for (int j = 0; j < count; ++j) G(i, j) = node.G[held[i] * node.touching + held[j]];
+    }
+    lambda = solve_small(G, -u);
+    int worst = 0;
+    if (lambda.minCoeff(&worst) >= 0) break;
+    std::swap(held[worst], held[count - 1]);
+  }
+  for (int i = 0; i < count; ++i) apply(node, held[i], lambda[i]);
+  for (int i = 0; i < node.touching; ++i) {
     Contact& c = node.contacts[i];
     c.u = c.n.dot(node.v);
     c.motion = motion_of(c.u, c.epsilon_u);

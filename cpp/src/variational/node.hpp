@@ -54,7 +54,6 @@ struct Node {
   VecX dq, u, rest;
   std::vector<double> G;  ///< grows only; (touching, touching)
   std::vector<Impulse> impulses;
-  std::vector<double> settled;  ///< impulses of settle_held_contacts
   double total_mass = 0;
 };
 

@@ -193,6 +193,10 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
       text << "more than " << most_constraints << " sustained contacts at t = " << node.t
            << " s: " << contact_list();
       break;
+    case FlightOutcome::impact_not_located:
+      text << "the time after t = " << node.t << " s at which " << model.pair_name(flight.closing)
+           << " closes was not found";
+      break;
     case FlightOutcome::no_progress:
       text << "contacts at t = " << node.t
            << " s keep closing and opening within one arc: " << contact_list();
