@@ -36,6 +36,7 @@ set(SALTUS_TEST_variational
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_stepper.cpp
+  variational/test_sustained.cpp
 )
 set(SALTUS_TEST_rollout
   rollout/test_simulate.cpp

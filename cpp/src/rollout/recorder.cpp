@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "saltus/rollout/simulate.hpp"
 
@@ -74,8 +75,11 @@ void record(const State& state, double t, const EnergyMeter& meter, Eigen::Index
 double Trajectory::energy_error() const {
   if (t.size() == 0) return 0;
   const VecX H = total();
-  const double error = (H.array() - H[0]).abs().maxCoeff();
-  return error == 0 ? 0 : error / kinetic.maxCoeff();
+  const double error = (H.array() - H[0]).abs().maxCoeff(), scale = kinetic.maxCoeff();
+  // where nothing moves, both are the rounding of the potential
+  const double rounding =
+      32 * std::numeric_limits<double>::epsilon() * potential.cwiseAbs().maxCoeff();
+  return error <= rounding && scale <= rounding ? 0 : error / scale;
 }
 
 }  // namespace saltus

@@ -83,14 +83,18 @@ TEST(ArcMatrix, SolveLeavesNoResidual) {
   }
 }
 
-// Whatever was factored before, in either of the two sweeps.
+// Whatever was factored before, in either of the two sweeps, and after a failure.
 TEST(ArcMatrix, CanBeUsedAgain) {
   for (int k = 0; k < 30; ++k) {
     const RandomTree t = varied_tree(k);
     const test::Evaluation at = evaluate(t);
     const VecX r = Random(1).vector(t.tree.coordinates);
     ArcMatrix used(t.tree);
-    for (const double tau : {0.3, 0.0, 0.01, 0.3, 0.0}) {
+    RandomTree bad = t;
+    bad.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const test::Evaluation at_bad = evaluate(bad);
+    factorize(t.tree, at_bad.kin, at_bad.comp, 0.3, used);
+    for (const double tau : {0.0, 0.3, 0.0, 0.01, 0.3, 0.0}) {
       ArcMatrix fresh(t.tree);
       VecX x = r, y = r;
       ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, used));

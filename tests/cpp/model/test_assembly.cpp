@@ -150,13 +150,14 @@ TEST(FixedJoints, AreFoldedIntoTheLinkTheyHoldTo) {
 TEST(Order, IsDepthFirstInTheOrderOfDescription) {
   ModelBuilder builder("tree");
   // described from the tips, and links before their parents
-  for (const std::string name : {"tip", "a", "b"}) builder.add_link({name, some_body()});
+  for (const std::string name : {"tip", "top", "a", "b"}) builder.add_link({name, some_body()});
   builder.add_joint(joint("to_tip", JointType::revolute, "a", "tip"));
+  builder.add_joint(joint("to_top", JointType::revolute, "a", "top"));
   builder.add_joint(joint("to_a", JointType::revolute, "world", "a"));
   builder.add_joint(joint("to_b", JointType::revolute, "world", "b"));
   const Model model = builder.build();
-  EXPECT_EQ(coordinate_names(model), (Names{"to_a", "to_tip", "to_b"}));
-  EXPECT_EQ(model->tree.parent, (std::vector<int>{-1, 0, -1}));
+  EXPECT_EQ(coordinate_names(model), (Names{"to_a", "to_tip", "to_top", "to_b"}));
+  EXPECT_EQ(model->tree.parent, (std::vector<int>{-1, 0, 0, -1}));
   EXPECT_TRUE(model->tree.one_to_one);
   EXPECT_EQ(model.link("tip"), 1);
   EXPECT_EQ(model->links[1].joint, 1);

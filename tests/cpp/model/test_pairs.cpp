@@ -162,6 +162,24 @@ TEST(HalfSpace, LiesBelowItsPlane) {
   EXPECT_NEAR(gap_of("b ~ slope"), 0.6 * 9 - 2 - 0.1, 1e-14);  // the same
 }
 
+// The frame of a shape is given in its link's, whatever frame the joint has inside.
+TEST(Shapes, MoveWithTheirLink) {
+  const Pose X_LG{rotation_from_rpy(0.3, 1.1, -0.4), {0.2, -0.1, 0.4}};
+  ModelBuilder builder = arm().add_link({"hand", some_body()});
+  JointSpec mount = joint("mount", JointType::fixed, "lower", "hand", {0.1, 0.2, -0.3});
+  mount.X_PJ.R = rotation_from_rpy(0.7, 0.2, 0.5);
+  builder.add_joint(mount).add_shape("hand", Box{{1, 2, 3}}, X_LG);
+  const Model model = builder.build();
+  const VecX q = Eigen::Vector2d(0.4, -0.9);
+  Kinematics kin(model->tree);
+  set_configuration(model->tree, q, kin);
+  const PlacedShape& shape = model->shapes[0];
+  const Pose X_WG = kin.X_WJ(model->tree, shape.joint) * shape.X_JG;
+  const Pose expected = model.X_WL(q, model.link("hand")) * X_LG;
+  EXPECT_LT((X_WG.R - expected.R).norm(), 1e-14);  // rounding of a few products
+  EXPECT_LT((X_WG.p - expected.p).norm(), 1e-14);
+}
+
 TEST(Pairs, CanBeLeftOut) {
   const Model model = two_balls().add_half_space("floor", Vec3::UnitZ()).build();
   EXPECT_EQ(model->pairs.size(), 3u);
