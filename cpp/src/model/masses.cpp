@@ -21,7 +21,8 @@ std::string impossible_moments(const BodyInertia& body) {
   // 1e-5: thin rods and plates lie on the boundary, and three moments of six digits leave so much.
   // 1e-12 m^2: a body of a micrometre is a point, whatever noise is written for its moments.
   const double slack = 1e-5 * body.I_J.norm() + 1e-12 * body.mass;
-  if (moments[0] >= -slack && moments[2] - moments[0] - moments[1] <= slack) return {};
+  // a negative moment is in the way of the rule for the greatest, too
+  if (moments[2] - moments[0] - moments[1] <= slack) return {};
   std::ostringstream text;
   text << "principal moments of inertia (" << moments[0] << " " << moments[1] << " " << moments[2]
        << ") that no body can have: each must be at least 0 and at most the sum of the other two";

@@ -29,8 +29,8 @@ TEST(Spatial, MotionCrossIsALieBracket) {
   Random random(2);
   for (int k = 0; k < 100; ++k) {
     const Vec6 a = random.vec6(), b = random.vec6(), c = random.vec6();
-    EXPECT_EQ(cross_motion(a, a), Vec6::Zero());
-    EXPECT_EQ(cross_motion(a, b), Vec6(-cross_motion(b, a)));
+    EXPECT_LT(cross_motion(a, a).norm(), rounding);
+    EXPECT_LT((cross_motion(a, b) + cross_motion(b, a)).norm(), rounding);
     const Vec6 jacobi = cross_motion(a, cross_motion(b, c)) + cross_motion(b, cross_motion(c, a)) +
                         cross_motion(c, cross_motion(a, b));
     EXPECT_LT(jacobi.norm(), 4 * rounding);
