@@ -91,7 +91,7 @@ TEST(ArcMatrix, CanBeUsedAgain) {
     const VecX r = Random(1).vector(t.tree.coordinates);
     ArcMatrix used(t.tree);
     RandomTree bad = t;
-    bad.v.setConstant(std::numeric_limits<double>::quiet_NaN());
+    bad.q.setConstant(std::numeric_limits<double>::quiet_NaN());
     const test::Evaluation at_bad = evaluate(bad);
     factorize(t.tree, at_bad.kin, at_bad.comp, 0.3, used);
     for (const double tau : {0.0, 0.3, 0.0, 0.01, 0.3, 0.0}) {
