@@ -13,7 +13,7 @@ void Assembly::add_shapes() {
         link_index(spec.link, "a " + shape_name(spec.shape) + " is put on", "link", spec.link);
     const Place& place = place_[link];
     std::string name = spec.name.empty() ? spec.link : spec.name;
-    if (const int k = ++count[name]; k > 1) name += "#" + std::to_string(k);
+    if (const int k = ++count[name]; k > 1) name.append("#").append(std::to_string(k));
     m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});
   }
   for (const ModelBuilder::Exclusion& exclusion : b_.exclusions_) {
