@@ -14,18 +14,12 @@ inline std::atomic<long> allocations{0};
 // them. Where malloc cannot be replaced (another C library, a sanitizer that has its own),
 // operator new is what is left.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-namespace saltus::test {
-inline constexpr bool counts_malloc = true;
-}
 extern "C" void* __libc_malloc(std::size_t size);  // glibc's own, under its second name
 extern "C" void* malloc(std::size_t size) noexcept {
   ++saltus::test::allocations;
   return __libc_malloc(size);
 }
 #else
-namespace saltus::test {
-inline constexpr bool counts_malloc = false;
-}
 void* operator new(std::size_t size) {
   ++saltus::test::allocations;
   if (void* p = std::malloc(size)) return p;

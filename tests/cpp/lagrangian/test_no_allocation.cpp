@@ -12,13 +12,19 @@ namespace {
 
 using test::allocations;
 
-TEST(Allocation, CounterSeesTheLibrarysArrays) {
-  if (!test::counts_malloc) GTEST_SKIP() << "malloc cannot be replaced here";
-  const test::RandomTree t = test::varied_tree(3);
+TEST(Allocation, CounterSeesEigenAndTheLibrary) {
   const long before = allocations;
+  const VecX x = VecX::Ones(10);
+  const long here = allocations;
+  EXPECT_GT(here, before);
+  EXPECT_EQ(x.sum(), 10);
+  const Tree none;
+  lagrangian(none, {}, VecX(), VecX());
+  const long empty = allocations - here;  // no arrays: vectors and matrices without entries
+  const test::RandomTree t = test::varied_tree(3);
+  const long before_call = allocations;
   const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
-  const long during = allocations - before;
-  EXPECT_GE(during, 5);  // L_q, L_v, L_qq, L_vq, L_vv at least
+  EXPECT_GE(allocations - before_call, empty + 5);  // L_q, L_v, L_qq, L_vq, L_vv at least
   EXPECT_EQ(L.L_q.size(), t.tree.coordinates);
 }
 
