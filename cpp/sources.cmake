@@ -6,9 +6,15 @@ set(SALTUS_SOURCES
   cpp/src/tree/kinematics.cpp
   cpp/src/tree/tree.cpp
   # lagrangian
-  cpp/src/lagrangian/arc_matrix.cpp
-  cpp/src/lagrangian/composite.cpp
-  cpp/src/lagrangian/energy.cpp
+  cpp/src/lagrangian/mass_model.cpp
+  cpp/src/lagrangian/packed/lu.cpp
+  cpp/src/lagrangian/packed/matrix.cpp
+  cpp/src/lagrangian/packed/pack.cpp
+  cpp/src/lagrangian/packed/passes.cpp
+  cpp/src/lagrangian/packed/place.cpp
+  cpp/src/lagrangian/packed/products.cpp
+  cpp/src/lagrangian/packed/rows.cpp
+  cpp/src/lagrangian/packed/sweep.cpp
   cpp/src/lagrangian/partials.cpp
   # collision
   cpp/src/collision/broad_phase.cpp

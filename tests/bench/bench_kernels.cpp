@@ -1,8 +1,7 @@
 // Times of saltus' kernels, without Python's calls: bench_kernels SECONDS FILE...
 //
 // Arguments and clock are those of clock.hpp.
-#include <saltus/lagrangian/composite.hpp>
-#include <saltus/lagrangian/energy.hpp>
+#include <saltus/lagrangian/packed_matrix.hpp>
 #include <saltus/saltus.hpp>
 
 #include <algorithm>
@@ -26,49 +25,49 @@ constexpr int largest_dense = 700;  // coordinates; above, n x n arrays outgrow 
 /// Everything that the derivatives of L need, allocated once.
 struct Partials {
   explicit Partials(const Model& with)
-      : model(with),
-        kin(model->tree),
-        comp(model->tree),
-        L_q(VecX::Zero(model.n_q())),
-        L_v(L_q),
-        M(MatX::Zero(0, 0)) {}
+      : model(with), w(model->packed), L_q(VecX::Zero(model.n_q())), L_v(L_q) {}
 
   void first(const VecX& q, const VecX& v) {
-    set_configuration(model->tree, q, kin);
-    set_velocity(model->tree, v, kin);
-    first_pass(model->tree, model->mass, kin, comp);
-    to_coordinates(model->tree, comp.L_q, L_q);
-    to_coordinates(model->tree, comp.L_v, L_v);
-    value = 0.5 * v.dot(L_v) - potential_energy(model->tree, model->mass, kin);
+    set_coordinates(model->tree, model->packed, q, w);
+    set_rates(model->tree, model->packed, v, w);
+    place(model->packed, w);
+    move(model->packed, w);
+    first_pass(model->packed, w);
+    gather(model->tree, model->packed, w.first, 0, L_v);
+    gather(model->tree, model->packed, w.first, 1, L_q);
+    value = 0.5 * v.dot(L_v) - potential_energy(model->packed, w);
   }
   void generators(const VecX& q, const VecX& v) {
     first(q, v);
-    second_pass(model->tree, model->mass, kin, comp);
+    second_pass(model->packed, w);
   }
-  void allocate_dense() { M = L_vq = L_qq = MatX::Zero(model.n_q(), model.n_q()); }
+  void allocate_products() { products = SecondPartials(model->packed); }
 
-  /// The products of the generators: all entries of the second partials that are not zero.
-  void dense(const VecX& q, const VecX& v) {
+  /// All entries of the second partials that are not zero.
+  void second(const VecX& q, const VecX& v) {
     generators(q, v);
-    const Tree& tree = model->tree;
-    for (int j = 0; j < tree.joints(); ++j) {
-      const JointComposite& c = comp.joint[j];
-      for (int i = j; i >= 0; i = tree.parent[i]) {
-        const JointMotion& m = kin.joint[i];
-        M(j, i) = m.S.dot(c.U);
-        L_qq(j, i) = m.W.dot(c.F) + angular(m.S).dot(c.G);
-        L_vq(j, i) = m.W.dot(c.U);
-        L_vq(i, j) = m.S.dot(c.F);
-      }
-    }
+    multiply_pairs(model->packed, w, products);
   }
 
   Model model;
-  Kinematics kin;
-  Composite comp;
+  Packed w;
+  SecondPartials products;
   VecX L_q, L_v;
-  MatX M, L_vq, L_qq;  // lower triangles of M and L_qq
   double value = 0;
+};
+
+/// One Newton iteration of a step of 1 ms: residual, matrix, factors, solution.
+struct Newton {
+  explicit Newton(const Model& with) : partials(with), J(with->tree, with->packed) {}
+  void iterate(const VecX& q, const VecX& v) {
+    partials.generators(q, v);
+    factorize(partials.model->tree, partials.model->packed, partials.w, 1e-3, J);
+    x = v;
+    solve(partials.model->tree, partials.model->packed, J, x);
+  }
+  Partials partials;
+  PackedMatrix J;
+  VecX x;
 };
 
 struct StepTime {
@@ -110,10 +109,10 @@ void run(double budget, const bench::Job& job) {
   std::cout << "{\"model\": \"" << model->name << "\", \"n\": " << n;
   std::cout << ", \"first\": " << time_of(budget, [&] { partials.first(q, v); });
   std::cout << ", \"generators\": " << time_of(budget, [&] { partials.generators(q, v); });
-  if (model->tree.one_to_one) {
-    partials.allocate_dense();
-    std::cout << ", \"partials\": " << time_of(budget, [&] { partials.dense(q, v); });
-  }
+  partials.allocate_products();
+  std::cout << ", \"partials\": " << time_of(budget, [&] { partials.second(q, v); });
+  Newton newton(model);
+  std::cout << ", \"newton\": " << time_of(budget, [&] { newton.iterate(q, v); });
   if (n <= largest_dense) {
     std::cout << ", \"lagrangian\": " << time_of(budget, [&] { model.lagrangian(q, v); });
   }

@@ -1,61 +1,66 @@
 #include "saltus/lagrangian/partials.hpp"
 
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus {
 namespace {
 
-/// Adds the four products of every pair of joints on a branch, i at or above j.
-void add_pairs(const Tree& tree, const Kinematics& kin, const Composite& comp,
+/// Spreads the rows over both triangles; coordinates that drive several joints collect them.
+void add_pairs(const Tree& tree, const PackedTree& t, const SecondPartials& rows,
                LagrangianPartials& L) {
-  for (int j = 0; j < tree.joints(); ++j) {
-    const JointComposite& c = comp.joint[j];
-    const int cj = tree.drive[j].coordinate;
-    for (int i = j; i >= 0; i = tree.parent[i]) {
-      const JointMotion& m = kin.joint[i];
-      const int ci = tree.drive[i].coordinate;
-      const double scale = tree.drive[i].multiplier * tree.drive[j].multiplier;
-      const double vv = scale * m.S.dot(c.U);
-      const double qq = scale * (m.W.dot(c.F) + angular(m.S).dot(c.G));
-      L.L_vv(ci, cj) += vv;
-      L.L_qq(ci, cj) += qq;
-      L.L_vq(ci, cj) += scale * m.S.dot(c.F);
-      if (i == j) continue;
-      L.L_vv(cj, ci) += vv;
-      L.L_qq(cj, ci) += qq;
-      L.L_vq(cj, ci) += scale * m.W.dot(c.U);
-    }
-  }
+  for_each_pair(t, [&](int j, int i, long entry) {
+    const Drive &dj = tree.drive[j], &di = tree.drive[i];
+    const int cj = dj.coordinate, ci = di.coordinate;
+    const double scale = di.multiplier * dj.multiplier;
+    const double vv = scale * number(rows.L_vv, entry), qq = scale * number(rows.L_qq, entry);
+    L.L_vv(ci, cj) += vv;
+    L.L_qq(ci, cj) += qq;
+    L.L_vq(ci, cj) += scale * number(rows.L_vq, entry);
+    if (i == j) return;
+    L.L_vv(cj, ci) += vv;
+    L.L_qq(cj, ci) += qq;
+    L.L_vq(cj, ci) += scale * number(rows.L_qv, entry);
+  });
 }
 
 }  // namespace
 
-LagrangianPartials lagrangian(const Tree& tree, const MassModel& mass, const VecRef& q,
+LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q,
                               const VecRef& v) {
-  Kinematics kin(tree);
-  Composite comp(tree);
-  set_configuration(tree, q, kin);
-  set_velocity(tree, v, kin);
-  first_pass(tree, mass, kin, comp);
-  second_pass(tree, mass, kin, comp);
+  Packed w(t);
+  SecondPartials rows(t);
+  set_coordinates(tree, t, q, w);
+  set_rates(tree, t, v, w);
+  place(t, w);
+  move(t, w);
+  first_pass(t, w);
+  const double V = potential_energy(t, w);
+  second_pass(t, w);
+  multiply_pairs(t, w, rows);
 
   const int n = tree.coordinates;
   LagrangianPartials L{0, VecX(n), VecX(n), MatX::Zero(n, n), MatX::Zero(n, n), MatX::Zero(n, n)};
-  to_coordinates(tree, comp.L_q, L.L_q);
-  to_coordinates(tree, comp.L_v, L.L_v);
-  add_pairs(tree, kin, comp, L);
-  L.value = 0.5 * v.dot(L.L_v) - potential_energy(tree, mass, kin);
+  gather(tree, t, w.first, 0, L.L_v);
+  gather(tree, t, w.first, 1, L.L_q);
+  add_pairs(tree, t, rows, L);
+  L.value = 0.5 * v.dot(L.L_v) - V;
   return L;
 }
 
-MatX mass_matrix(const Tree& tree, const MassModel& mass, const VecRef& q) {
-  Kinematics kin(tree);
-  Composite comp(tree);
-  set_configuration(tree, q, kin);
-  mass_pass(tree, mass, kin, comp);
+MatX mass_matrix(const Tree& tree, const PackedTree& t, const VecRef& q) {
+  Packed w(t);
+  SecondPartials rows(t);
+  set_coordinates(tree, t, q, w);
+  place(t, w);
+  mass_pass(t, w);
+  multiply_pairs(t, w, rows);
   MatX M = MatX::Zero(tree.coordinates, tree.coordinates);
-  add_dense(tree, kin, comp, 0, M);
+  for_each_pair(t, [&](int j, int i, long entry) {
+    const Drive &dj = tree.drive[j], &di = tree.drive[i];
+    const double M_ij = di.multiplier * dj.multiplier * number(rows.L_vv, entry);
+    M(di.coordinate, dj.coordinate) += M_ij;
+    if (i != j) M(dj.coordinate, di.coordinate) += M_ij;
+  });
   return M;
 }
 

@@ -16,6 +16,8 @@ void Assembly::check() {
   number_coordinates();
   add_frames();
   add_masses();
+  m_.mass.gravity = b_.gravity_;
+  m_.packed = pack(m_.tree, m_.mass, b_.solver_);
   check_moments();
   check_masses();
   add_shapes();
@@ -24,7 +26,6 @@ void Assembly::check() {
 Model Assembly::build() {
   check();
   m_.name = b_.name_;
-  m_.mass.gravity = b_.gravity_;
   m_.warnings.insert(m_.warnings.begin(), b_.warnings_.begin(), b_.warnings_.end());
   m_.source = b_.source_;
   add_pairs();

@@ -1,9 +1,10 @@
 // Links' inertias welded into the bodies of joints; joints that move no mass.
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <sstream>
 
 #include "model/assembly.hpp"
-#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus {
 namespace {
@@ -37,33 +38,44 @@ VecX pivots_from_last(MatX M) {
   return M.diagonal();
 }
 
-double scale_of(const Vec6& S, const Inertia& Ic) {
-  const double a = angular(S).norm(), l = linear(S).norm();
-  return a * a * Ic.I.trace() + 2 * a * l * Ic.h.norm() + l * l * Ic.mass;
+/// Bound of the terms of S.(Ic S) in one slot.
+double scale_of(const PackedTree& t, const Packed& w, int slot) {
+  const double *S = at(w.S_W, slot), *I_h = at(w.I_h, slot);
+  const auto norm = [](const double* x) {
+    return std::hypot(x[0], x[lanes], x[2 * lanes]);
+  };
+  const double a = norm(S), l = norm(S + 3 * lanes);
+  const double trace = I_h[0] + I_h[3 * lanes] + I_h[5 * lanes];
+  return a * a * trace + 2 * a * l * norm(I_h + 6 * lanes) + l * l * *at(t.weight, slot);
 }
 
-std::vector<FeltInertia> felt_inertias(const Tree& tree, const MassModel& mass) {
-  Kinematics kin(tree);
-  Composite comp(tree);
+/// S.U, a joint's own entry of the mass matrix.
+double locked_inertia(const Packed& w, int slot) {
+  double sum = 0;
+  for (int c = 0; c < 6; ++c) sum += at(w.S_W, slot)[c * lanes] * at(w.U_F_G, slot)[c * lanes];
+  return sum;
+}
+
+std::vector<FeltInertia> felt_inertias(const Tree& tree, const PackedTree& t) {
+  Packed w(t);
+  PackedMatrix M(tree, t);
   VecX q(tree.coordinates);
   for (int i = 0; i < q.size(); ++i) q[i] = 0.3 + 0.1 * (i % 7);  // no special configuration
-  set_configuration(tree, q, kin);
-  set_velocity(tree, VecX::Zero(tree.coordinates), kin);
-  first_pass(tree, mass, kin, comp);
-  second_pass(tree, mass, kin, comp);
+  set_coordinates(tree, t, q, w);
+  place(t, w);
+  mass_pass(t, w);
 
   std::vector<FeltInertia> felt(static_cast<std::size_t>(tree.coordinates), {0, 0, 0});
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
     felt[drive.coordinate].scale +=
-        drive.multiplier * drive.multiplier * scale_of(kin.joint[i].S, comp.joint[i].Ic);
+        drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
   }
-  ArcMatrix M(tree);
-  factorize(tree, kin, comp, 0, M);
+  factorize(tree, t, w, 0, M);
   const VecX dense_pivots = tree.one_to_one ? VecX() : pivots_from_last(M.dense);
   for (int c = 0; c < tree.coordinates; ++c) {
-    felt[c].free = tree.one_to_one ? 1 / M.joint[c].inverse_D : dense_pivots[c];
-    felt[c].locked = tree.one_to_one ? kin.joint[c].S.dot(comp.joint[c].U) : M.dense(c, c);
+    felt[c].free = tree.one_to_one ? 1 / *at(M.inverse, t.slot[c]) : dense_pivots[c];
+    felt[c].locked = tree.one_to_one ? locked_inertia(w, t.slot[c]) : M.dense(c, c);
   }
   return felt;
 }
@@ -99,7 +111,7 @@ void Assembly::check_moments() {
 // gives way. Where `locked` vanishes against `scale`, all mass lies on the axis. Elimination ends
 // at the first such pivot, the last in order, and those before it are not to be looked at.
 void Assembly::check_masses() const {
-  const std::vector<FeltInertia> felt = felt_inertias(m_.tree, m_.mass);
+  const std::vector<FeltInertia> felt = felt_inertias(m_.tree, m_.packed);
   for (int c = m_.tree.coordinates - 1; c >= 0; --c) {
     // 1e-12, 1e-14: rounding of the sweep and of one sum, with a few digits to spare
     if (felt[c].free > 1e-12 * felt[c].locked && felt[c].locked > 1e-14 * felt[c].scale) continue;

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus {
 namespace {
@@ -87,28 +86,30 @@ State Model::state(const VecRef& q, const VecRef& v, double t) const {
 VecX Model::velocity(const State& state) const {
   check_vector(state.q, n_q(), "state.q");
   check_vector(state.p, n_q(), "state.p");
-  Kinematics kin(data_->tree);
-  Composite comp(data_->tree);
-  ArcMatrix M(data_->tree);
-  set_configuration(data_->tree, state.q, kin);
-  mass_pass(data_->tree, data_->mass, kin, comp);
+  const Tree& tree = data_->tree;
+  const PackedTree& packed = data_->packed;
+  Packed w(packed);
+  PackedMatrix M(tree, packed);
+  set_coordinates(tree, packed, state.q, w);
+  place(packed, w);
+  mass_pass(packed, w);
   VecX v = state.p;
-  if (!factorize(data_->tree, kin, comp, 0, M)) {
+  if (!factorize(tree, packed, w, 0, M)) {
     throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
   }
-  solve(data_->tree, M, v);
+  solve(tree, packed, M, v);
   return v;
 }
 
 LagrangianPartials Model::lagrangian(const VecRef& q, const VecRef& v) const {
   check_vector(q, n_q(), "q");
   check_vector(v, n_q(), "v");
-  return saltus::lagrangian(data_->tree, data_->mass, q, v);
+  return saltus::lagrangian(data_->tree, data_->packed, q, v);
 }
 
 MatX Model::mass_matrix(const VecRef& q) const {
   check_vector(q, n_q(), "q");
-  return saltus::mass_matrix(data_->tree, data_->mass, q);
+  return saltus::mass_matrix(data_->tree, data_->packed, q);
 }
 
 double Model::kinetic_energy(const State& state) const {
@@ -117,9 +118,11 @@ double Model::kinetic_energy(const State& state) const {
 
 double Model::potential_energy(const VecRef& q) const {
   check_vector(q, n_q(), "q");
-  Kinematics kin(data_->tree);
-  set_configuration(data_->tree, q, kin);
-  return saltus::potential_energy(data_->tree, data_->mass, kin);
+  Packed w(data_->packed);
+  set_coordinates(data_->tree, data_->packed, q, w);
+  place(data_->packed, w);
+  mass_pass(data_->packed, w);
+  return saltus::potential_energy(data_->packed, w);
 }
 
 Pose Model::X_WL(const VecRef& q, int link) const {

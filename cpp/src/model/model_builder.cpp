@@ -75,6 +75,11 @@ ModelBuilder::ModelBuilder(std::string name, std::string root)
   links_.push_back({root_, {}});
 }
 
+ModelBuilder& ModelBuilder::set_solver(TreeSolver solver) {
+  solver_ = solver;
+  return *this;
+}
+
 ModelBuilder& ModelBuilder::set_gravity(const Vec3& gravity) {
   if (!gravity.allFinite()) throw ModelError("gravity " + show(gravity) + " is not finite");
   gravity_ = gravity;

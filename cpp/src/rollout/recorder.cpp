@@ -9,35 +9,41 @@
 namespace saltus {
 
 EnergyMeter::EnergyMeter(const ModelData& model)
-    : energy{0, 0, 0}, kin(model.tree), comp(model.tree), M(model.tree) {
-  for (VecX* x : {&v, &force, &a}) x->setZero(model.tree.coordinates);
-  v_joint.setZero(model.tree.joints());
+    : energy{0, 0, 0},
+      w(model.packed),
+      M(model.tree, model.packed),
+      products(model.packed) {
+  for (VecX* x : {&v, &L_q, &L_vq_v, &L_qq_v, &force, &a}) x->setZero(model.tree.coordinates);
 }
 
 // kappa = a^T M a - v^T L_qq v with M a = L_q - L_vq v (theory, section 5); a^T M a = a . force.
 void measure(const ModelData& model, const State& state, double h, EnergyMeter& m) {
-  set_configuration(model.tree, state.q, m.kin);
-  mass_pass(model.tree, model.mass, m.kin, m.comp);
-  if (!factorize(model.tree, m.kin, m.comp, 0, m.M)) {
+  const Tree& tree = model.tree;
+  const PackedTree& packed = model.packed;
+  set_coordinates(tree, packed, state.q, m.w);
+  place(packed, m.w);
+  mass_pass(packed, m.w);
+  if (!factorize(tree, packed, m.w, 0, m.M)) {
     throw StepError("the mass matrix is singular at this configuration", state.t, 0, 0);
   }
   m.v = state.p;
-  solve(model.tree, m.M, m.v);
+  solve(tree, packed, m.M, m.v);
 
-  set_velocity(model.tree, m.v, m.kin);
-  first_pass(model.tree, model.mass, m.kin, m.comp);
-  second_pass(model.tree, model.mass, m.kin, m.comp);
-  to_joints(model.tree, m.v, m.v_joint);
-  multiply_second_partials(model.tree, m.kin, m.comp, m.v_joint, m.times);
-  const double curvature = m.v_joint.dot(m.times.L_qq_x);
-  m.times.L_vq_x = m.comp.L_q - m.times.L_vq_x;
-  to_coordinates(model.tree, m.times.L_vq_x, m.force);
+  set_rates(tree, packed, m.v, m.w);
+  move(packed, m.w);
+  first_pass(packed, m.w);
+  second_pass(packed, m.w);
+  multiply_by_rates(packed, m.w, m.products);
+  gather(tree, packed, m.w.first, 1, m.L_q);
+  gather(tree, packed, m.products.by_joint, 0, m.L_vq_v);
+  gather(tree, packed, m.products.by_joint, 2, m.L_qq_v);
+  m.force = m.L_q - m.L_vq_v;
   m.a = m.force;
-  solve(model.tree, m.M, m.a);
-  const double kappa = m.a.dot(m.force) - curvature;
+  solve(tree, packed, m.M, m.a);
+  const double kappa = m.a.dot(m.force) - m.v.dot(m.L_qq_v);
 
   m.energy.kinetic = 0.5 * state.p.dot(m.v);
-  m.energy.potential = potential_energy(model.tree, model.mass, m.kin);
+  m.energy.potential = potential_energy(packed, m.w);
   m.energy.shadow = m.energy.kinetic + m.energy.potential - h * h * kappa / 24;
 }
 

@@ -1,8 +1,7 @@
 // Writes rows of a trajectory, with energies, without allocating.
 #pragma once
 
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/rollout/trajectory.hpp"
 
 namespace saltus {
@@ -14,11 +13,10 @@ struct EnergyMeter {
   VecX v;           ///< (n_q) written by measure
   Energies energy;  ///< written by measure
 
-  Kinematics kin;
-  Composite comp;
-  ArcMatrix M;
-  SecondPartialsTimes times;
-  VecX v_joint, force, a;
+  Packed w;
+  PackedMatrix M;
+  PackedProducts products;
+  VecX L_q, L_vq_v, L_qq_v, force, a;
 };
 
 /// @throws StepError where the mass matrix is singular

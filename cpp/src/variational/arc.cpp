@@ -7,44 +7,32 @@
 namespace saltus {
 namespace {
 
-/// What a body adds to the size of the terms that its subtree's H and g are sums of. Products of
-/// norms, so that what cancels inside a cross product counts too. Needs first_pass, no more.
-ArcScratch::TermSize body_terms(const Vec3& gravity, const JointMotion& m, const Inertia& I) {
-  if (I.mass == 0) return {0, 0, 0, 0};
-  const double w = angular(m.V).norm(), v = linear(m.V).norm(), h = I.h.norm();
-  const double g = gravity.norm();
-  return {I.I.trace() * w + h * v, I.mass * v + h * w, h * g, I.mass * g};
-}
-
-// The residual is a difference of rounded sums; this is the size of their terms, per coordinate,
-// so that `converged` means the same for a spinning grain as for a sliding block.
-void set_scale(const ModelData& model, double tau, ArcScratch& s) {
+/// Writes w, L_v, L_q and scale at v: all that the residual is made of.
+void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
   const Tree& tree = model.tree;
-  for (int i = 0; i < tree.joints(); ++i) {
-    s.terms[i] = body_terms(model.mass.gravity, s.kin.joint[i], s.comp.joint[i].Ic);
-  }
+  const PackedTree& packed = model.packed;
+  s.x = a.q + a.tau / 2 * v;
+  set_coordinates(tree, packed, s.x, s.w);
+  set_rates(tree, packed, v, s.w);
+  place(packed, s.w);
+  move(packed, s.w);
+  first_pass(packed, s.w);
+  scale_pass(packed, a.tau, s.w);
+  gather(tree, packed, s.w.first, 0, s.L_v);
+  gather(tree, packed, s.w.first, 1, s.L_q);
   s.scale.setZero();
-  for (int i = tree.joints() - 1; i >= 0; --i) {
-    const JointMotion& m = s.kin.joint[i];
-    const ArcScratch::TermSize& t = s.terms[i];
-    const double S_w = angular(m.S).norm(), S_v = linear(m.S).norm();
-    const double W_w = angular(m.W).norm(), W_v = linear(m.W).norm();
-    const double size = S_w * t.H_w + S_v * t.H_v +
-                        tau / 2 * (W_w * t.H_w + W_v * t.H_v + S_w * t.g_w + S_v * t.g_v);
-    s.scale[tree.drive[i].coordinate] += std::abs(tree.drive[i].multiplier) * size;
-    if (tree.parent[i] >= 0) s.terms[tree.parent[i]] += t;
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    s.scale[drive.coordinate] += std::abs(drive.multiplier) * *at(s.w.scale, packed.slot[i]);
   }
 }
 
-/// Writes kin, comp, L_v, L_q, scale at v and the negative residual r; returns its scaled size.
-double evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
-  s.x = a.q + a.tau / 2 * v;
-  set_configuration(model.tree, s.x, s.kin);
-  set_velocity(model.tree, v, s.kin);
-  first_pass(model.tree, model.mass, s.kin, s.comp);
-  to_coordinates(model.tree, s.comp.L_v, s.L_v);
-  to_coordinates(model.tree, s.comp.L_q, s.L_q);
-  set_scale(model, a.tau, s);
+/// Writes the negative residual r of the momentum; returns its scaled size. The residual is a
+/// difference of rounded sums, and `scale` is the size of their terms, per coordinate, so that
+/// `converged` means the same for a spinning grain as for a sliding block.
+double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
+                         ArcScratch& s) {
+  evaluate(model, a, v, s);
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) s.r += c.lambda * c.n;
   double size = 0;
@@ -57,7 +45,7 @@ double evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcS
 }
 
 double discrete_energy(const ModelData& model, const VecX& v, const ArcScratch& s) {
-  return 0.5 * v.dot(s.L_v) + potential_energy(model.tree, model.mass, s.kin);
+  return 0.5 * v.dot(s.L_v) + potential_energy(model.packed, s.w);
 }
 
 /// c and dc/dv of one constraint; c is scaled by tau (hold), so that it stays regular at tau = 0.
@@ -70,10 +58,10 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
     add_gap_gradient(model.tree, s.kin_end, pair, g, c.row);
     return (g.phi - c.target) / a.tau;
   }
-  to_joints(model.tree, v, s.v_joint);
-  multiply_second_partials(model.tree, s.kin, s.comp, s.v_joint, s.times);
-  s.times.L_vv_x += a.tau / 2 * (s.times.L_qv_x - s.comp.L_q);
-  to_coordinates(model.tree, s.times.L_vv_x, c.row);
+  // dE_d/dv = L_vv v + tau/2 (L_vq^T v - L_q); w has v as its rates, and L_vv v = L_v
+  multiply_by_rates(model.packed, s.w, s.products);
+  gather(model.tree, model.packed, s.products.by_joint, 1, s.L_qv_v);
+  c.row = s.L_v + a.tau / 2 * (s.L_qv_v - s.L_q);
   return discrete_energy(model, v, s) - c.target;
 }
 
@@ -89,7 +77,7 @@ void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v,
     ArcConstraint& c = a.constraints[i];
     rhs[i] = -constraint(model, a, v, c, s) - c.row.dot(s.dv);
     c.column = c.n;
-    solve(model.tree, s.J, c.column);
+    solve(model.tree, model.packed, s.J, c.column);
   }
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < m; ++j) S(i, j) = a.constraints[i].row.dot(a.constraints[j].column);
@@ -124,7 +112,7 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
 }
 
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
-  const double size = evaluate(model, a, v, s);
+  const double size = momentum_residual(model, a, v, s);
   return std::max(size, constraint_residual(model, a, v, s));
 }
 
@@ -133,10 +121,10 @@ double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcS
 double newton_step(const ModelData& model, const ArcProblem& a, double before, Arc& arc,
                    ArcScratch& s) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  second_pass(model.tree, model.mass, s.kin, s.comp);
-  if (!factorize(model.tree, s.kin, s.comp, a.tau, s.J)) return infinity;
+  second_pass(model.packed, s.w);
+  if (!factorize(model.tree, model.packed, s.w, a.tau, s.J)) return infinity;
   s.dv = s.r;
-  solve(model.tree, s.J, s.dv);
+  solve(model.tree, model.packed, s.J, s.dv);
   add_constraints(model, a, arc.v, s);
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
@@ -153,11 +141,14 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
 }  // namespace
 
 ArcScratch::ArcScratch(const ModelData& model)
-    : kin(model.tree), kin_end(model.tree), comp(model.tree), J(model.tree) {
-  const int n = model.tree.coordinates, joints = model.tree.joints();
-  for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv}) each->setZero(n);
-  v_joint.setZero(joints);
-  terms.resize(model.tree.parent.size());
+    : w(model.packed),
+      J(model.tree, model.packed),
+      products(model.packed),
+      kin_end(model.tree) {
+  const int n = model.tree.coordinates;
+  for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv, &L_qv_v, &L_vq_v, &L_qq_v}) {
+    each->setZero(n);
+  }
 }
 
 bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
@@ -185,14 +176,14 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
 }
 
 void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
-  second_pass(model.tree, model.mass, s.kin, s.comp);
+  second_pass(model.packed, s.w);
   rate.setZero();
-  if (!factorize(model.tree, s.kin, s.comp, arc.tau, s.J)) return;
-  to_joints(model.tree, arc.v, s.v_joint);
-  multiply_second_partials(model.tree, s.kin, s.comp, s.v_joint, s.times);
-  s.times.L_vq_x = -(s.times.L_vq_x - s.comp.L_q) / 2 + arc.tau / 4 * s.times.L_qq_x;
-  to_coordinates(model.tree, s.times.L_vq_x, rate);
-  solve(model.tree, s.J, rate);
+  if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
+  multiply_by_rates(model.packed, s.w, s.products);
+  gather(model.tree, model.packed, s.products.by_joint, 0, s.L_vq_v);
+  gather(model.tree, model.packed, s.products.by_joint, 2, s.L_qq_v);
+  rate = -(s.L_vq_v - s.L_q) / 2 + arc.tau / 4 * s.L_qq_v;
+  solve(model.tree, model.packed, s.J, rate);
 }
 
 }  // namespace saltus

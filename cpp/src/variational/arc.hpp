@@ -18,8 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
 #include "variational/small_system.hpp"
@@ -52,26 +51,15 @@ struct Arc {
   int iterations = 0;
 };
 
-/// Workspace, and what the last solve left: kin, comp at (q_mid, v).
+/// Workspace, and what the last solve left: w at (q_mid, v).
 struct ArcScratch {
   explicit ArcScratch(const ModelData& model);
-  Kinematics kin, kin_end;
-  Composite comp;
-  ArcMatrix J;
-  SecondPartialsTimes times;
-  VecX x, L_v, L_q, r, scale, dv, v_joint;
-
-  /// Sizes of the terms in a subtree's momentum H and gravity wrench g, angular and linear.
-  struct TermSize {
-    double H_w, H_v, g_w, g_v;
-    void operator+=(const TermSize& other) {
-      H_w += other.H_w;
-      H_v += other.H_v;
-      g_w += other.g_w;
-      g_v += other.g_v;
-    }
-  };
-  std::vector<TermSize> terms;  ///< (n)
+  Packed w;
+  PackedMatrix J;
+  PackedProducts products;
+  Kinematics kin_end;
+  VecX x, L_v, L_q, r, scale, dv;
+  VecX L_qv_v, L_vq_v, L_qq_v;
 };
 
 /// @return false when it does not converge within options.max_iterations; `arc` then holds the

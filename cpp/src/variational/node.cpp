@@ -4,17 +4,16 @@
 #include <array>
 #include <cmath>
 
-#include "saltus/lagrangian/energy.hpp"
 #include "variational/small_system.hpp"
 
 namespace saltus {
 namespace {
 
 bool set_velocity_at_node(const ModelData& model, Node& node) {
-  mass_pass(model.tree, model.mass, node.kin, node.comp);
-  if (!factorize(model.tree, node.kin, node.comp, 0, node.M)) return false;
+  mass_pass(model.packed, node.w);
+  if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
   node.v = node.p;
-  solve(model.tree, node.M, node.v);
+  solve(model.tree, model.packed, node.M, node.v);
   return node.v.allFinite();
 }
 
@@ -86,7 +85,7 @@ void set_G(const ModelData& model, Node& node) {
   for (int i = 0; i < m; ++i) {
     Contact& c = node.contacts[i];
     c.column = c.n;
-    solve(model.tree, node.M, c.column);
+    solve(model.tree, model.packed, node.M, c.column);
     node.u[i] = c.u;
     node.rest[i] = c.epsilon_u;
   }
@@ -109,9 +108,9 @@ void apply(Node& node, int contact, double lambda) {
 Node::Node(const ModelData& model)
     : contact_of(model.pairs.size(), -1),
       held(model.pairs.size(), 0),
+      w(model.packed),
       kin(model.tree),
-      comp(model.tree),
-      M(model.tree),
+      M(model.tree, model.packed),
       broad(model.tree, model.shapes, model.pairs) {
   const int n = model.tree.coordinates;
   for (VecX* x : {&q, &p, &v, &dq, &launch.n}) x->setZero(n);
@@ -126,7 +125,9 @@ Node::Node(const ModelData& model)
 
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {
   if (model.pairs.empty()) return true;
-  set_configuration(model.tree, node.q, node.kin);
+  set_coordinates(model.tree, model.packed, node.q, node.w);
+  place(model.packed, node.w);
+  copy_poses(model.tree, model.packed, node.w, node.kin);
   node.dq = options.simultaneous * options.h * node.v;
   double margin = 0;
   for (const Pair& pair : model.pairs) margin = std::max(margin, pair.touch);
@@ -182,7 +183,7 @@ void settle_held_contacts(const ModelData& model, Node& node) {
 }
 
 double node_energy(const ModelData& model, const Node& node) {
-  return 0.5 * node.p.dot(node.v) + potential_energy(model.tree, model.mass, node.kin);
+  return 0.5 * node.p.dot(node.v) + potential_energy(model.packed, node.w);
 }
 
 bool resolve_node_impact(const ModelData& model, const StepOptions& options, double arc_energy,
@@ -223,7 +224,7 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
   report.impacts.push_back(impact);
   const double speed = typical_speed(model, options, node);
   node.v = node.p;  // without the rounding that the cascade's updates have gathered
-  solve(model.tree, node.M, node.v);
+  solve(model.tree, model.packed, node.M, node.v);
   for (int i = 0; i < m; ++i) {
     node.held[node.contacts[i].pair] = 0;
     classify(node, speed, options.rest, node.contacts[i]);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "saltus/collision/broad_phase.hpp"
-#include "saltus/lagrangian/arc_matrix.hpp"
+#include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/report.hpp"
@@ -47,9 +47,9 @@ struct Node {
   Launch launch;
 
   // scratch
+  Packed w;
   Kinematics kin;
-  Composite comp;
-  ArcMatrix M;
+  PackedMatrix M;
   BroadPhase broad;
   VecX dq, u, rest;
   std::vector<double> G;  ///< grows only; (touching, touching)

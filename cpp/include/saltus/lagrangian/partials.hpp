@@ -1,7 +1,7 @@
 // The Lagrangian and all its first and second partials as dense arrays, for people.
 #pragma once
 
-#include "saltus/lagrangian/composite.hpp"
+#include "saltus/lagrangian/packed_rows.hpp"
 
 namespace saltus {
 
@@ -13,11 +13,11 @@ struct LagrangianPartials {
   MatX L_vv;         ///< (n_q, n_q) the mass matrix
 };
 
-/// O(n depth) after the two passes; theory, section 2.
-SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const MassModel& mass,
+/// O(n depth) after the two passes; theory, section 2. `packed` is pack(tree, mass).
+SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const PackedTree& packed,
                                             const VecRef& q, const VecRef& v);
 
 /// M(q) = L_vv, (n_q, n_q).
-SALTUS_EXPORT MatX mass_matrix(const Tree& tree, const MassModel& mass, const VecRef& q);
+SALTUS_EXPORT MatX mass_matrix(const Tree& tree, const PackedTree& packed, const VecRef& q);
 
 }  // namespace saltus

@@ -56,6 +56,7 @@ struct ModelData {
   std::string name;
   Tree tree;
   MassModel mass;
+  PackedTree packed;  ///< tree and mass, for the kernels
   std::vector<Link> links;
   std::vector<JointInfo> joints;
   std::vector<Coordinate> coordinates;  ///< (n_q)

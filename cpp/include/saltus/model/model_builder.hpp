@@ -47,6 +47,8 @@ class SALTUS_EXPORT ModelBuilder {
 
   ModelBuilder& set_gravity(const Vec3& gravity);
   ModelBuilder& set_source(std::string text);
+  /// How steps solve for velocities; `automatic` goes by the tree's shape.
+  ModelBuilder& set_solver(TreeSolver solver);
 
   ModelBuilder& add_link(const LinkSpec& link);
   ModelBuilder& add_joint(const JointSpec& joint);
@@ -74,6 +76,7 @@ class SALTUS_EXPORT ModelBuilder {
   };
   std::string name_, root_, source_;
   Vec3 gravity_ = Vec3(0, 0, -9.81);
+  TreeSolver solver_ = TreeSolver::automatic;
   std::vector<LinkSpec> links_;
   std::vector<JointSpec> joints_;
   std::vector<ShapeSpec> shapes_;

@@ -16,27 +16,10 @@
 
 #include <vector>
 
+#include "saltus/lagrangian/mass_model.hpp"
 #include "saltus/tree/kinematics.hpp"
 
-namespace saltus {
-
-/// Mass of all bodies that move with one joint, in the joint's frame.
-struct BodyInertia {
-  double mass = 0;          ///< [kg]
-  Vec3 c_J = Vec3::Zero();  ///< [m] centre of mass
-  Mat3 I_J = Mat3::Zero();  ///< [kg m^2] about the centre of mass, axes of J
-};
-
-/// Two bodies welded together.
-SALTUS_EXPORT BodyInertia weld(const BodyInertia& a, const BodyInertia& b);
-
-/// The same body, seen from frame P when it is given in frame B.
-SALTUS_EXPORT BodyInertia transform(const Pose& X_PB, const BodyInertia& body_B);
-
-struct MassModel {
-  std::vector<BodyInertia> body;     ///< (n) by joint
-  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
-};
+namespace saltus::plain {
 
 /// What one subtree contributes.
 struct JointComposite {
@@ -59,16 +42,16 @@ struct Composite {
 };
 
 /// First partials. Needs set_configuration and set_velocity.
-SALTUS_EXPORT void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
+void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
                               Composite& comp);
 
 /// Generators of the second partials. Needs first_pass (once after each).
-SALTUS_EXPORT void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
+void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
                                Composite& comp);
 
 /// What the mass matrix alone needs: Ic of the subtrees and U. Needs set_configuration, no
 /// velocity; factorize with tau = 0 and add_dense with tau = 0 may follow, nothing else.
-SALTUS_EXPORT void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
+void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
                              Composite& comp);
 
-}  // namespace saltus
+}  // namespace saltus::plain

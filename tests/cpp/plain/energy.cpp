@@ -1,6 +1,6 @@
-#include "saltus/lagrangian/energy.hpp"
+#include "plain/energy.hpp"
 
-namespace saltus {
+namespace saltus::plain {
 
 double potential_energy(const Tree& tree, const MassModel& mass, const Kinematics& kin) {
   double V = 0;
@@ -63,4 +63,4 @@ void multiply_second_partials(const Tree& tree, const Kinematics& kin, const Com
   }
 }
 
-}  // namespace saltus
+}  // namespace saltus::plain

@@ -17,9 +17,9 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "saltus/lagrangian/composite.hpp"
+#include "plain/composite.hpp"
 
-namespace saltus {
+namespace saltus::plain {
 
 using Vec9 = Eigen::Matrix<double, 9, 1>;
 using Mat9 = Eigen::Matrix<double, 9, 9>;
@@ -39,20 +39,20 @@ struct ArcMatrix {
   Eigen::PartialPivLU<MatX> lu;  ///< of dense
 
   ArcMatrix() = default;
-  SALTUS_EXPORT explicit ArcMatrix(const Tree& tree);
+  explicit ArcMatrix(const Tree& tree);
 };
 
 /// Needs second_pass at the (q, v) in question.
 /// @return false where a pivot vanishes or is not a number: J is singular there. The joint is the
 /// last whose inverse_D is not a finite number; those before it are not eliminated.
-SALTUS_EXPORT bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp,
+bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp,
                              double tau, ArcMatrix& J);
 
 /// x <- J^-1 x, x (n_q).
-SALTUS_EXPORT void solve(const Tree& tree, ArcMatrix& J, Eigen::Ref<VecX> x);
+void solve(const Tree& tree, ArcMatrix& J, Eigen::Ref<VecX> x);
 
 /// Adds C^T J(tau) C to `out` (n_q, n_q): the dense twin of factorize, for people and for tests.
-SALTUS_EXPORT void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp,
+void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp,
                              double tau, MatX& out);
 
-}  // namespace saltus
+}  // namespace saltus::plain

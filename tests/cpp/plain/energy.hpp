@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "saltus/lagrangian/composite.hpp"
+#include "plain/composite.hpp"
 
-namespace saltus {
+namespace saltus::plain {
 
 /// V = -sum m g.c  [J], with the world's origin at height zero. Needs set_configuration.
-SALTUS_EXPORT double potential_energy(const Tree& tree, const MassModel& mass,
+double potential_energy(const Tree& tree, const MassModel& mass,
                                       const Kinematics& kin);
 
 /// Products with one joint-space vector x (n), all by joint (n).
@@ -30,8 +30,8 @@ struct SecondPartialsTimes {
 };
 
 /// Writes all four products from prefix sums along the branches. Needs second_pass.
-SALTUS_EXPORT void multiply_second_partials(const Tree& tree, const Kinematics& kin,
+void multiply_second_partials(const Tree& tree, const Kinematics& kin,
                                             const Composite& comp, const VecRef& x,
                                             SecondPartialsTimes& out);
 
-}  // namespace saltus
+}  // namespace saltus::plain

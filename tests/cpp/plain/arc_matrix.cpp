@@ -1,8 +1,8 @@
-#include "saltus/lagrangian/arc_matrix.hpp"
+#include "plain/arc_matrix.hpp"
 
 #include <cmath>
 
-namespace saltus {
+namespace saltus::plain {
 namespace {
 
 Vec9 nine(const Vec6& a, const Vec3& b) {
@@ -149,4 +149,4 @@ void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp, d
   }
 }
 
-}  // namespace saltus
+}  // namespace saltus::plain

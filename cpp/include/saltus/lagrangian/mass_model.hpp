@@ -1,0 +1,29 @@
+// The bodies of a tree and gravity.
+#pragma once
+
+#include <vector>
+
+#include "saltus/export.hpp"
+#include "saltus/spatial/spatial.hpp"
+
+namespace saltus {
+
+/// Mass of all bodies that move with one joint, in the joint's frame.
+struct BodyInertia {
+  double mass = 0;          ///< [kg]
+  Vec3 c_J = Vec3::Zero();  ///< [m] centre of mass
+  Mat3 I_J = Mat3::Zero();  ///< [kg m^2] about the centre of mass, axes of J
+};
+
+/// Two bodies welded together.
+SALTUS_EXPORT BodyInertia weld(const BodyInertia& a, const BodyInertia& b);
+
+/// The same body, seen from frame P when it is given in frame B.
+SALTUS_EXPORT BodyInertia transform(const Pose& X_PB, const BodyInertia& body_B);
+
+struct MassModel {
+  std::vector<BodyInertia> body;     ///< (n) by joint
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
+};
+
+}  // namespace saltus

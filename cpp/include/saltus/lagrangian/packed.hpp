@@ -1,0 +1,90 @@
+// L, its first partials and the generators of its second ones, in lanes (see packed_tree.hpp).
+//
+// The formulas are those of kinematics.hpp and composite.hpp, whose plain loops are the reference
+// that tests compare with.
+#pragma once
+
+#include "saltus/lagrangian/packed_tree.hpp"
+
+namespace saltus {
+
+struct Packed {
+  Packed() = default;
+  SALTUS_EXPORT explicit Packed(const PackedTree& tree);
+
+  // set_coordinates
+  Blocks<1> s;  ///< displacement of the joint
+  // set_rates
+  Blocks<1> s_dot;
+  // place
+  Blocks<2> turn;  ///< cos, sin of the turn
+  Blocks<9> R;     ///< R_WJ by columns
+  Blocks<6> p;     ///< [m] p_OJ; the step from the parent's origin
+  // place, move
+  Blocks<12> S_W;  ///< S; W = V x S
+  // move
+  Blocks<6> V;
+  // first_pass; second_pass adds the subtrees' I
+  Blocks<9> I_h;  ///< about O: I as xx xy xz yy yz zz of the body, h of the subtree
+  Blocks<6> H;
+  Blocks<2> first;  ///< L_v, L_q by joint
+  Blocks<1> scale;  ///< bound of the terms whose difference an arc's residual is
+  Blocks<4> terms;  ///< scratch of scale
+  // second_pass
+  Blocks<15> U_F_G;
+};
+
+/// s <- what the drives make of q (n_q).
+SALTUS_EXPORT void set_coordinates(const Tree& tree, const PackedTree& packed, const VecRef& q,
+                                   Packed& w);
+/// s_dot <- what the drives make of v (n_q).
+SALTUS_EXPORT void set_rates(const Tree& tree, const PackedTree& packed, const VecRef& v,
+                             Packed& w);
+
+/// Poses and S; needs set_coordinates.
+SALTUS_EXPORT void place(const PackedTree& packed, Packed& w);
+/// V and W; needs place and set_rates.
+SALTUS_EXPORT void move(const PackedTree& packed, Packed& w);
+/// L_v, L_q; needs move.
+SALTUS_EXPORT void first_pass(const PackedTree& packed, Packed& w);
+/// scale of an arc's residual, of duration tau; needs first_pass.
+SALTUS_EXPORT void scale_pass(const PackedTree& packed, double tau, Packed& w);
+/// U, F, G; needs first_pass, once after each.
+SALTUS_EXPORT void second_pass(const PackedTree& packed, Packed& w);
+/// U alone, from place alone: what the mass matrix needs.
+SALTUS_EXPORT void mass_pass(const PackedTree& packed, Packed& w);
+
+/// V = -sum m g.c [J]; needs first_pass or mass_pass.
+SALTUS_EXPORT double potential_energy(const PackedTree& packed, const Packed& w);
+
+/// Products of the second partials with the velocity, by joint.
+struct PackedProducts {
+  PackedProducts() = default;
+  SALTUS_EXPORT explicit PackedProducts(const PackedTree& tree);
+
+  Blocks<3> by_joint;  ///< L_vq v, L_vq^T v, L_qq v
+  Blocks<15> below;    ///< scratch: sums over subtrees
+  Blocks<6> above;     ///< scratch: sums over ancestors
+};
+
+/// Writes all three in O(n); needs second_pass.
+SALTUS_EXPORT void multiply_by_rates(const PackedTree& packed, const Packed& w,
+                                     PackedProducts& out);
+
+/// R, p, S and origin of every joint, as set_configuration would; needs place.
+SALTUS_EXPORT void copy_poses(const Tree& tree, const PackedTree& packed, const Packed& w,
+                              Kinematics& kin);
+
+/// Adjoint of set_rates: out[c] <- sum of multiplier * number `which` over the joints that
+/// coordinate c drives.
+template <int C>
+void gather(const Tree& tree, const PackedTree& packed, const Blocks<C>& from, int which,
+            VecX& out) {
+  out.setZero();
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    out[drive.coordinate] += drive.multiplier * at(from, packed.slot[i])[which * lanes];
+  }
+}
+
+}  // namespace saltus

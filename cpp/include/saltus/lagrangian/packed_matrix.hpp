@@ -1,0 +1,62 @@
+// The Newton matrix of an arc, and the mass matrix, in lanes: factored and solved.
+//
+//   J(tau) = L_vv + tau/2 (L_vq - L_vq^T) - tau^2/4 L_qq,   J(0) = M          (theory, section 3)
+//   J_ij = t_i.w_j     J_ji = s_i.u_j                                            for i at or above j
+//
+//   s = [S + tau/2 W; S_w]   w = [U + tau/2 F; G]     t = [S - tau/2 W; -tau^2/4 S_w]
+//   u = [U - tau/2 F; -tau^2/4 G]                      (S_w: the angular rows of S)
+//
+// lu      eliminates from the leaves to the root. A joint's equation knows its ancestors only, and
+//         eliminating it touches rows of ancestors only: no fill, O(sum of depth^2).
+// sweep   the recursion of arc_matrix.hpp: one 9x9 matrix carried up a branch, O(n).
+//
+// Mimic joints tie distant branches together; there the dense matrix C^T J C is factored.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "saltus/lagrangian/packed_rows.hpp"
+
+namespace saltus {
+
+struct PackedMatrix {
+  PackedMatrix() = default;
+  SALTUS_EXPORT PackedMatrix(const Tree& tree, const PackedTree& packed);
+
+  bool symmetric = false;  ///< tau = 0: `upper` is not used
+  Blocks<18> s_t;          ///< generators of J by its ancestors
+  Blocks<18> u_w;          ///< and by its descendants
+  Blocks<1> inverse;       ///< 1 / pivot; a slot whose pivot failed holds what is not finite
+
+  // lu
+  PackedRows lower, upper;  ///< row j: J_ji and J_ij, eliminated
+  Blocks<18> path;          ///< scratch
+
+  // sweep: nine numbers a slot, padded to twelve
+  struct alignas(32) Nine {
+    double x[12] = {};
+  };
+  struct Carried {
+    Nine P[9], PT[9];  ///< rows of P and of its transpose
+  };
+  std::vector<Nine> s, t, gain, row, c, a;
+  std::vector<Carried> branch;  ///< sums at joints with several children
+  std::vector<int> branch_of;   ///< (slots) index in `branch`, or -1
+
+  // mimic joints
+  MatX dense;                    ///< (n_q, n_q)
+  Eigen::PartialPivLU<MatX> lu;  ///< of dense
+  VecX solution;                 ///< (n_q) scratch of solve
+
+  Blocks<1> x;  ///< scratch of solve, by slot
+};
+
+/// Factors of J(tau); needs second_pass, or mass_pass for tau = 0.
+/// @return false where a pivot vanishes or is not a number: J is singular there.
+SALTUS_EXPORT bool factorize(const Tree& tree, const PackedTree& packed, const Packed& w,
+                             double tau, PackedMatrix& J);
+
+/// x <- J^-1 x, x (n_q).
+SALTUS_EXPORT void solve(const Tree& tree, const PackedTree& packed, PackedMatrix& J, VecX& x);
+
+}  // namespace saltus

@@ -1,0 +1,88 @@
+// The tree and its bodies, packed for the kernels: numbers of eight joints side by side.
+//
+// A slot holds one joint. Slot k is lane k % 8 of block k / 8, and a block keeps each of its numbers
+// for all eight lanes next to each other, so that one instruction works on a block. Two kinds of
+// groups fill the lanes:
+//
+//   one tree     its joints in preorder, one a lane: what is done joint by joint runs in lanes, and
+//                recursions along the tree go lane by lane
+//   equal trees  (a cradle's pendulums, bodies that fly alone) the same joint of each tree side by
+//                side: recursions too run in lanes
+//
+// Lanes that are left over hold joints without mass, whose numbers nobody reads.
+#pragma once
+
+#include <vector>
+
+#include "saltus/lagrangian/mass_model.hpp"
+#include "saltus/tree/kinematics.hpp"
+
+namespace saltus {
+
+inline constexpr int lanes = 8;
+
+/// C numbers a joint, for eight joints.
+template <int C>
+struct alignas(64) Block {
+  double x[C][lanes] = {};
+};
+
+template <int C>
+using Blocks = std::vector<Block<C>>;
+
+/// The first number of a slot; its others follow at strides of `lanes`.
+template <int C>
+inline double* at(Blocks<C>& blocks, int slot) {
+  return &blocks[slot / lanes].x[0][slot % lanes];
+}
+template <int C>
+inline const double* at(const Blocks<C>& blocks, int slot) {
+  return &blocks[slot / lanes].x[0][slot % lanes];
+}
+
+/// How J x = r is solved on a tree.
+enum class TreeSolver {
+  automatic,  ///< lu for shallow trees, sweep for deep ones
+  lu,         ///< elimination from the leaves without fill: O(sum of depth^2)
+  sweep,      ///< articulated-body-like recursion: O(n)
+};
+
+/// One tree (width 1), or equal ones (width a multiple of 8). Joint `position` of tree `lane` is in
+/// slot first + position * width + lane.
+struct PackedGroup {
+  int first = 0;      ///< a multiple of 8
+  int positions = 0;  ///< joints a tree
+  int width = 1;
+  int trees = 1;          ///< lanes that hold one
+  bool branched = false;  ///< else the parent of a position is the one before
+  bool sweep = false;     ///< else lu
+  int depth = 0;          ///< joints on the longest path from the root
+  std::vector<int> parent;          ///< (positions) -1 for the root
+  std::vector<int> level;           ///< (positions) ancestors of each
+  std::vector<long> row;            ///< (positions) block where its row begins, see PackedRows
+  std::vector<int> reference_path;  ///< positions from the joint at the reference point to the root
+
+  int slot(int position) const { return first + position * width; }
+};
+
+struct PackedTree {
+  std::vector<PackedGroup> groups;
+  std::vector<int> slot;   ///< (n) of each joint
+  std::vector<int> joint;  ///< (slots) in each slot, -1 where there is none
+  int slots = 0;           ///< a multiple of 8
+  long row_blocks = 0;     ///< of all rows
+  long lu_row_blocks = 0;  ///< of those of groups that lu solves; they come first
+  bool one_to_one = true;  ///< as in Tree
+
+  Blocks<12> X;      ///< placement: R by columns, p
+  Blocks<2> kind;    ///< what a unit of displacement turns and slides: 1, 0 | 0, 1 | 1, pitch
+  Blocks<10> body;   ///< mass, c_J, I_J: xx xy xz yy yz zz
+  Blocks<1> weight;  ///< [kg] mass of the subtree
+  Vec3 gravity = Vec3::Zero();
+};
+
+/// Sorts the joints into slots. Equal trees share lanes where `solver` is not sweep.
+SALTUS_EXPORT PackedTree pack(const Tree& tree, const MassModel& mass,
+                              TreeSolver solver = TreeSolver::automatic);
+
+}  // namespace saltus

@@ -1,0 +1,151 @@
+#include "lagrangian/packed/matrix.hpp"
+
+namespace saltus {
+namespace packed {
+namespace {
+
+/// s, t, u, w of the header.
+SALTUS_CLONES void set_generators(const PackedTree& t, const Packed& w, double tau,
+                                  PackedMatrix& J) {
+  const double half = tau / 2, quarter = -tau * tau / 4;
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double *S_W = w.S_W[b].x[0], *U_F_G = w.U_F_G[b].x[0];
+    double *s_t = J.s_t[b].x[0], *u_w = J.u_w[b].x[0];
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      const V6 S = load6(S_W + l, 0), W = half * load6(S_W + l, 6);
+      store(s_t + l, 0, S + W);
+      store(s_t + l, 6, S.w);
+      store(s_t + l, 9, S - W);
+      store(s_t + l, 15, quarter * S.w);
+    }
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      const V6 U = load6(U_F_G + l, 0), F = half * load6(U_F_G + l, 6);
+      const V3 G = load3(U_F_G + l, 12);
+      store(u_w + l, 0, U - F);
+      store(u_w + l, 6, quarter * G);
+      store(u_w + l, 9, U + F);
+      store(u_w + l, 15, G);
+    }
+  }
+}
+
+/// The same at tau = 0, from S and U alone: mass_pass leaves the rest as it was.
+SALTUS_CLONES void set_mass_generators(const PackedTree& t, const Packed& w, PackedMatrix& J) {
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double *S = w.S_W[b].x[0], *U = w.U_F_G[b].x[0];
+    double *s_t = J.s_t[b].x[0], *u_w = J.u_w[b].x[0];
+    const V3 zero{0, 0, 0};
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      store(s_t + l, 0, load6(S + l, 0));
+      store(s_t + l, 6, zero);
+      store(s_t + l, 9, load6(S + l, 0));
+      store(s_t + l, 15, zero);
+      store(u_w + l, 0, load6(U + l, 0));
+      store(u_w + l, 6, zero);
+      store(u_w + l, 9, load6(U + l, 0));
+      store(u_w + l, 15, zero);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace packed
+
+namespace {
+
+bool has_sweep(const PackedTree& t) {
+  for (const PackedGroup& g : t.groups) {
+    if (g.sweep) return true;
+  }
+  return false;
+}
+
+void prepare_sweep(const PackedTree& t, PackedMatrix& J) {
+  const std::size_t n = static_cast<std::size_t>(t.slots);
+  for (auto* rows : {&J.s, &J.t, &J.gain, &J.row, &J.c, &J.a}) rows->resize(n);
+  J.branch_of.assign(n, -1);
+  int branches = 0;
+  for (const PackedGroup& g : t.groups) {
+    for (int k = 1; k < g.positions && g.sweep; ++k) {
+      if (g.parent[k] == k - 1) continue;
+      int& branch = J.branch_of[g.slot(g.parent[k])];
+      if (branch < 0) branch = branches++;
+    }
+  }
+  J.branch.resize(static_cast<std::size_t>(branches));
+}
+
+/// C^T J C from the rows of J.
+void set_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
+  J.dense.setZero();
+  for (const PackedGroup& g : t.groups) packed::multiply_lu(g, J);
+  for_each_pair(t, [&](int j, int i, long entry) {
+    const Drive &dj = tree.drive[j], &di = tree.drive[i];
+    const double scale = di.multiplier * dj.multiplier;
+    const double lower = number(J.lower, entry);
+    const double upper = J.symmetric ? lower : number(J.upper, entry);
+    J.dense(di.coordinate, dj.coordinate) += scale * upper;
+    if (i != j) J.dense(dj.coordinate, di.coordinate) += scale * lower;
+  });
+}
+
+bool factorize_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
+  set_dense(tree, t, J);
+  J.lu.compute(J.dense);
+  const auto pivots = J.lu.matrixLU().diagonal().array();
+  return pivots.isFinite().all() && (pivots.abs() > 0).all();
+}
+
+}  // namespace
+
+PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& t)
+    : path(packed::make_path<18>(t)) {
+  const std::size_t n = static_cast<std::size_t>(t.slots / lanes);
+  s_t.resize(n);
+  u_w.resize(n);
+  inverse.resize(n);
+  x.resize(n);
+  const std::size_t rows =
+      static_cast<std::size_t>(t.one_to_one ? t.lu_row_blocks : t.row_blocks);
+  lower.resize(rows);
+  upper.resize(rows);
+  if (has_sweep(t)) prepare_sweep(t, *this);
+  if (t.one_to_one) return;
+  dense.setIdentity(tree.coordinates, tree.coordinates);
+  solution.setZero(tree.coordinates);
+  lu.compute(dense);  // allocates here, so that factorize does not
+}
+
+bool factorize(const Tree& tree, const PackedTree& t, const Packed& w, double tau,
+               PackedMatrix& J) {
+  J.symmetric = tau == 0;
+  if (J.symmetric) {
+    packed::set_mass_generators(t, w, J);
+  } else {
+    packed::set_generators(t, w, tau, J);
+  }
+  if (!t.one_to_one) return factorize_dense(tree, t, J);
+  for (const PackedGroup& g : t.groups) {
+    if (!g.sweep) packed::multiply_lu(g, J);
+    if (!(g.sweep ? packed::factorize_sweep(g, J) : packed::eliminate_lu(g, J))) return false;
+  }
+  return true;
+}
+
+void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
+  if (!t.one_to_one) {
+    J.solution = J.lu.solve(x);
+    x = J.solution;
+    return;
+  }
+  for (int i = 0; i < tree.joints(); ++i) *at(J.x, t.slot[i]) = x[i];
+  for (const PackedGroup& g : t.groups) {
+    g.sweep ? packed::solve_sweep(g, J) : packed::solve_lu(g, J);
+  }
+  for (int i = 0; i < tree.joints(); ++i) x[i] = *at(J.x, t.slot[i]);
+}
+
+}  // namespace saltus

@@ -1,0 +1,212 @@
+// Down pass in lanes: poses, screws, twists.
+//
+//   R_i = R_parent X_R Rz(s)     step_i = R_parent X_p + slide s z_i     p_i = p_parent + step_i
+//   S_i = [turn z; p x turn z + slide z]     V_i = V_parent + S_i s'      W_i = V_i x S_i
+//
+// p is from the reference point O of the tree, as in kinematics.hpp.
+#include "lagrangian/packed/lane.hpp"
+#include "saltus/lagrangian/packed.hpp"
+
+namespace saltus {
+namespace packed {
+namespace {
+
+/// R <- X_R Rz(s): the joint's frame in its parent's.
+SALTUS_CLONES void turn_frames(const PackedTree& t, Packed& w) {
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double *X = t.X[b].x[0], *turn = w.turn[b].x[0];
+    double* R = w.R[b].x[0];
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      const M3 A = load9(X + l, 0);
+      const double c = turn[l], s = turn[lanes + l];
+      store(R + l, 0, M3{c * A.x + s * A.y, c * A.y - s * A.x, A.z});
+    }
+  }
+}
+
+/// Frame of one joint in the world from its frame in its parent's.
+SALTUS_INLINE M3 chain(const M3& parent, double slide, const double* X, double* R, double* p) {
+  const M3 frame = parent * load9(R, 0);
+  store(R, 0, frame);
+  store(p, 3, parent * load3(X, 9) + slide * frame.z);
+  return frame;
+}
+
+/// The root's: its parent is the world, and R is right already.
+SALTUS_INLINE M3 start(double slide, const double* X, const double* R, double* p) {
+  const M3 frame = load9(R, 0);
+  store(p, 3, load3(X, 9) + slide * frame.z);
+  return frame;
+}
+
+SALTUS_INLINE void chain_one_tree(const PackedTree& t, const PackedGroup& g, Packed& w) {
+  const int root = g.first;
+  M3 frame = start(at(t.kind, root)[lanes] * *at(w.s, root), at(t.X, root), at(w.R, root),
+                   at(w.p, root));
+  for (int k = 1; k < g.positions; ++k) {
+    const int i = g.first + k;
+    if (g.parent[k] != k - 1) frame = load9(at(w.R, g.first + g.parent[k]), 0);
+    frame =
+        chain(frame, at(t.kind, i)[lanes] * *at(w.s, i), at(t.X, i), at(w.R, i), at(w.p, i));
+  }
+}
+
+SALTUS_INLINE void chain_equal_trees(const PackedTree& t, const PackedGroup& g, Packed& w) {
+  for (int k = 0; k < g.positions; ++k) {
+    for (int b = 0; b < g.width; b += lanes) {
+      const int i = g.slot(k) + b, parent = g.slot(k > 0 ? g.parent[k] : 0) + b;
+      const double *X = at(t.X, i), *kind = at(t.kind, i), *s = at(w.s, i), *Rp = at(w.R, parent);
+      double *R = at(w.R, i), *p = at(w.p, i);
+      if (k == 0) {
+        SALTUS_LANES
+        for (int l = 0; l < lanes; ++l) start(kind[lanes + l] * s[l], X + l, R + l, p + l);
+      } else {
+        SALTUS_LANES
+        for (int l = 0; l < lanes; ++l) {
+          chain(load9(Rp + l, 0), kind[lanes + l] * s[l], X + l, R + l, p + l);
+        }
+      }
+    }
+  }
+}
+
+/// p from the steps. The joints above the reference joint are placed from it upwards, so that it
+/// is at O exactly.
+SALTUS_INLINE void sum_steps(const PackedGroup& g, Packed& w) {
+  int below = -1;
+  for (const int k : g.reference_path) {
+    for (int l = 0; l < g.width; ++l) {
+      double* p = at(w.p, g.slot(k) + l);
+      const double* q = below < 0 ? nullptr : at(w.p, g.slot(below) + l);
+      store(p, 0, q ? load3(q, 0) - load3(q, 3) : V3{0, 0, 0});
+    }
+    below = k;
+  }
+  const int highest = g.reference_path.front();  // the path is in order of position
+  for (int k = 1; k < g.positions; ++k) {
+    bool on_path = false;
+    if (k <= highest) {
+      for (const int each : g.reference_path) on_path = on_path || each == k;
+    }
+    if (on_path) continue;
+    if (g.width == 1) {
+      double* p = at(w.p, g.slot(k));
+      store(p, 0, load3(at(w.p, g.slot(g.parent[k])), 0) + load3(p, 3));
+      continue;
+    }
+    for (int b = 0; b < g.width; b += lanes) {
+      double* p = at(w.p, g.slot(k) + b);
+      const double* parent = at(w.p, g.slot(g.parent[k]) + b);
+      SALTUS_LANES
+      for (int l = 0; l < lanes; ++l) store(p + l, 0, load3(parent + l, 0) + load3(p + l, 3));
+    }
+  }
+}
+
+SALTUS_CLONES void chain_frames(const PackedTree& t, Packed& w) {
+  for (const PackedGroup& g : t.groups) {
+    if (g.width == 1) {
+      chain_one_tree(t, g, w);
+    } else {
+      chain_equal_trees(t, g, w);
+    }
+    sum_steps(g, w);
+  }
+}
+
+SALTUS_CLONES void set_screws(const PackedTree& t, Packed& w) {
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double *kind = t.kind[b].x[0], *R = w.R[b].x[0], *p = w.p[b].x[0];
+    double* S = w.S_W[b].x[0];
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      const V3 axis = load3(R + l, 6), turn = kind[l] * axis;
+      store(S + l, 0, V6{turn, cross(load3(p + l, 0), turn) + kind[lanes + l] * axis});
+    }
+  }
+}
+
+/// V <- S s', then summed along the branches; W.
+SALTUS_CLONES void set_twists(const PackedTree& t, Packed& w) {
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double *S = w.S_W[b].x[0], *s_dot = w.s_dot[b].x[0];
+    double* V = w.V[b].x[0];
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) store(V + l, 0, s_dot[l] * load6(S + l, 0));
+  }
+  for (const PackedGroup& g : t.groups) add_down<6>(g, w.V, 0);
+  for (int b = 0; b < t.slots / lanes; ++b) {
+    const double* V = w.V[b].x[0];
+    double* S = w.S_W[b].x[0];
+    SALTUS_LANES
+    for (int l = 0; l < lanes; ++l) {
+      store(S + l, 6, cross_motion(load6(V + l, 0), load6(S + l, 0)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace packed
+
+Packed::Packed(const PackedTree& tree) {
+  const std::size_t n = static_cast<std::size_t>(tree.slots / lanes);
+  s.resize(n);
+  s_dot.resize(n);
+  turn.resize(n);
+  R.resize(n);
+  p.resize(n);
+  S_W.resize(n);
+  V.resize(n);
+  I_h.resize(n);
+  H.resize(n);
+  first.resize(n);
+  scale.resize(n);
+  terms.resize(n);
+  U_F_G.resize(n);
+  for (Block<2>& each : turn) {
+    for (double& cosine : each.x[0]) cosine = 1;
+  }
+}
+
+void set_coordinates(const Tree& tree, const PackedTree& t, const VecRef& q, Packed& w) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    *at(w.s, t.slot[i]) = drive.multiplier * q[drive.coordinate] + drive.offset;
+  }
+}
+
+void set_rates(const Tree& tree, const PackedTree& t, const VecRef& v, Packed& w) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    *at(w.s_dot, t.slot[i]) = drive.multiplier * v[drive.coordinate];
+  }
+}
+
+void place(const PackedTree& t, Packed& w) {
+  for (const int slot : t.slot) {
+    if (at(t.kind, slot)[0] == 0) continue;  // does not turn
+    const double s = *at(w.s, slot);
+    at(w.turn, slot)[0] = std::cos(s);
+    at(w.turn, slot)[lanes] = std::sin(s);
+  }
+  packed::turn_frames(t, w);
+  packed::chain_frames(t, w);
+  packed::set_screws(t, w);
+}
+
+void move(const PackedTree& t, Packed& w) { packed::set_twists(t, w); }
+
+void copy_poses(const Tree& tree, const PackedTree& t, const Packed& w, Kinematics& kin) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    JointMotion& m = kin.joint[i];
+    const double *R = at(w.R, t.slot[i]), *p = at(w.p, t.slot[i]), *S = at(w.S_W, t.slot[i]);
+    for (int c = 0; c < 9; ++c) m.R.data()[c] = R[c * lanes];  // both by columns
+    for (int c = 0; c < 3; ++c) m.p[c] = p[c * lanes];
+    for (int c = 0; c < 6; ++c) m.S[c] = S[c * lanes];
+    if (tree.parent[i] >= 0) continue;
+    for (int c = 0; c < 3; ++c) kin.origin[i][c] = p[(3 + c) * lanes] - p[c * lanes];
+  }
+}
+
+}  // namespace saltus

@@ -1,0 +1,137 @@
+// The O(n) recursion for deep trees (arc_matrix.hpp has the formulas).
+//
+// Rows of nine numbers are padded to twelve, three wide registers; P and its transpose are carried
+// side by side, so that both P s and t^T P are sums of rows.
+#include "lagrangian/packed/matrix.hpp"
+#include "lagrangian/packed/nine.hpp"
+
+namespace saltus::packed {
+namespace {
+
+using Carried = PackedMatrix::Carried;
+
+SALTUS_INLINE Nine load(const PackedMatrix::Nine& from) {
+  return {load4(from.x), load4(from.x + 4), load4(from.x + 8)};
+}
+SALTUS_INLINE void save(const Nine& from, PackedMatrix::Nine& to) {
+  save4(from.a, to.x);
+  save4(from.b, to.x + 4);
+  save4(from.c, to.x + 8);
+}
+
+/// to <- sum + weight^T rows, N of them. Two sums, so that additions need not wait for each other.
+template <int N>
+SALTUS_INLINE Nine combine(const Nine& sum, const double* weight, const PackedMatrix::Nine* rows) {
+  Nine even = sum, odd = zero();
+#pragma GCC unroll 9
+  for (int r = 0; r < N; ++r) add(weight[r], load(rows[r]), r % 2 ? odd : even);
+  add(1, odd, even);
+  return even;
+}
+
+/// carried <- carried + sum, or sum alone.
+template <int N>
+SALTUS_INLINE void add_branch(const Carried& sum, bool loaded, Carried& carried) {
+  for (int r = 0; r < N; ++r) {
+    Nine P = load(sum.P[r]), PT = load(sum.PT[r]);
+    if (loaded) {
+      add(1, load(carried.P[r]), P);
+      add(1, load(carried.PT[r]), PT);
+    }
+    save(P, carried.P[r]);
+    save(PT, carried.PT[r]);
+  }
+}
+
+/// carried <- carried - gain row / D; of a leaf, whose P is zero, -gain row / D.
+template <int N>
+SALTUS_INLINE void reduce(const PackedMatrix::Nine& gain, const PackedMatrix::Nine& row,
+                          double inverse, bool loaded, Carried& carried) {
+  const Nine wide_gain = load(gain), wide_row = load(row);
+#pragma GCC unroll 9
+  for (int r = 0; r < N; ++r) {
+    Nine P = zero(), PT = zero();
+    if (loaded) {
+      P = load(carried.P[r]);
+      PT = load(carried.PT[r]);
+    }
+    add(-gain.x[r] * inverse, wide_row, P);
+    add(-row.x[r] * inverse, wide_gain, PT);
+    save(P, carried.P[r]);
+    save(PT, carried.PT[r]);
+  }
+}
+
+/// gain, row and the pivot of one joint.
+template <int N>
+SALTUS_INLINE double set_row(int slot, bool loaded, const Carried& carried, PackedMatrix& J) {
+  const double *s_t = at(J.s_t, slot), *u_w = at(J.u_w, slot);
+  const Nine t = unpack(s_t, 9);
+  save(unpack(s_t, 0), J.s[slot]);
+  save(t, J.t[slot]);
+  Nine gain = unpack(u_w, 9), row = unpack(u_w, 0);
+  if (loaded) {
+    gain = combine<N>(gain, J.s[slot].x, carried.PT);
+    row = combine<N>(row, J.t[slot].x, carried.P);
+  }
+  save(gain, J.gain[slot]);
+  save(row, J.row[slot]);
+  return dot(t, gain);
+}
+
+/// N = 9, or 6 where tau = 0: there the last three of t and u vanish.
+template <int N>
+SALTUS_INLINE bool factorize(const PackedGroup& g, PackedMatrix& J) {
+  Carried carried;
+  bool loaded = false;  // `carried` holds what joint k + 1 left for joint k
+  for (Carried& each : J.branch) each = Carried{};
+  for (int k = g.positions - 1; k >= 0; --k) {
+    const int slot = g.slot(k), branch = J.branch_of[slot];
+    if (branch >= 0) {
+      add_branch<N>(J.branch[branch], loaded, carried);
+      loaded = true;
+    }
+    const double D = set_row<N>(slot, loaded, carried, J);
+    const double inverse = *at(J.inverse, slot) = 1 / D;  // tells which pivot failed
+    if (!is_pivot(D)) return false;
+    if (g.parent[k] < 0) break;
+    reduce<N>(J.gain[slot], J.row[slot], inverse, loaded, carried);
+    loaded = g.parent[k] == k - 1;
+    if (loaded) continue;
+    add_branch<N>(carried, true, J.branch[J.branch_of[g.slot(g.parent[k])]]);
+  }
+  return true;
+}
+
+}  // namespace
+
+SALTUS_CLONES bool factorize_sweep(const PackedGroup& g, PackedMatrix& J) {
+  return J.symmetric ? factorize<6>(g, J) : factorize<9>(g, J);
+}
+
+SALTUS_CLONES void solve_sweep(const PackedGroup& g, PackedMatrix& J) {
+  for (int k = 0; k < g.positions; ++k) save(zero(), J.c[g.slot(k)]);
+  for (int k = g.positions - 1; k >= 0; --k) {
+    const int slot = g.slot(k);
+    double& e = *at(J.x, slot);
+    const Nine c = load(J.c[slot]);
+    e -= dot(load(J.t[slot]), c);
+    if (g.parent[k] < 0) continue;
+    PackedMatrix::Nine& parent = J.c[g.slot(g.parent[k])];
+    Nine sum = load(parent);
+    add(1, c, sum);
+    add(e * *at(J.inverse, slot), load(J.gain[slot]), sum);
+    save(sum, parent);
+  }
+  for (int k = 0; k < g.positions; ++k) {
+    const int slot = g.slot(k);
+    double& x = *at(J.x, slot);
+    Nine a = zero();
+    if (g.parent[k] >= 0) a = load(J.a[g.slot(g.parent[k])]);
+    x = (x - dot(load(J.row[slot]), a)) * *at(J.inverse, slot);
+    add(x, load(J.s[slot]), a);
+    save(a, J.a[slot]);
+  }
+}
+
+}  // namespace saltus::packed
