@@ -15,6 +15,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/products.cpp
   cpp/src/lagrangian/packed/rows.cpp
   cpp/src/lagrangian/packed/sweep.cpp
+  cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp
   # collision
   cpp/src/collision/broad_phase.cpp

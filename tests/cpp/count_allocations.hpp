@@ -19,6 +19,12 @@ extern "C" void* malloc(std::size_t size) noexcept {
   ++saltus::test::allocations;
   return __libc_malloc(size);
 }
+// What operator new asks for where a type is aligned wider than malloc gives (blocks of lanes).
+extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
+extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++saltus::test::allocations;
+  return __libc_memalign(alignment, size);
+}
 #else
 void* operator new(std::size_t size) {
   ++saltus::test::allocations;

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "saltus/lagrangian/composite.hpp"
+#include "saltus/lagrangian/mass_model.hpp"
 
 namespace saltus::test {
 

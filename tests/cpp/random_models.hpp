@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "saltus/lagrangian/composite.hpp"
+#include "saltus/lagrangian/mass_model.hpp"
 
 namespace saltus::test {
 

@@ -8,10 +8,15 @@ set(SALTUS_TEST_tree
   tree/test_tree.cpp
 )
 set(SALTUS_TEST_lagrangian
+  plain/arc_matrix.cpp
+  plain/composite.cpp
+  plain/energy.cpp
   lagrangian/test_arc_matrix.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
   lagrangian/test_no_allocation.cpp
+  lagrangian/test_packed.cpp
+  lagrangian/test_packed_matrix.cpp
   lagrangian/test_partials.cpp
 )
 set(SALTUS_TEST_collision

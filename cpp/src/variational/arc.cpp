@@ -20,6 +20,10 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   scale_pass(packed, a.tau, s.w);
   gather(tree, packed, s.w.first, 0, s.L_v);
   gather(tree, packed, s.w.first, 1, s.L_q);
+  if (packed.one_to_one) {
+    gather(tree, packed, s.w.scale, 0, s.scale);
+    return;
+  }
   s.scale.setZero();
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
@@ -35,13 +39,16 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   evaluate(model, a, v, s);
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) s.r += c.lambda * c.n;
+  // where a coordinate feels no force at all, 0 / tiny is 0
+  constexpr double tiny = std::numeric_limits<double>::min();
   double size = 0;
+  bool finite = true;
   for (int i = 0; i < s.r.size(); ++i) {
-    const double scale = s.scale[i] + std::abs(a.p[i]);
-    if (!std::isfinite(s.r[i])) return std::numeric_limits<double>::infinity();
-    if (s.r[i] != 0) size = std::max(size, std::abs(s.r[i]) / scale);
+    const double each = std::abs(s.r[i]) / (s.scale[i] + std::abs(a.p[i]) + tiny);
+    finite = finite && std::isfinite(s.r[i]);
+    size = each > size ? each : size;
   }
-  return size;
+  return finite ? size : std::numeric_limits<double>::infinity();
 }
 
 double discrete_energy(const ModelData& model, const VecX& v, const ArcScratch& s) {

@@ -63,11 +63,12 @@ Holds update_holds(const ModelData& model, Node& node, Flight& f) {
     release(i, node, f);
     return Holds::changed;
   }
-  bool changed = false;
-  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+  bool changed = false, placed = false;
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
+    if (!placed) set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+    placed = true;
     const Gap g = pair_gap(model.tree, f.scratch.kin_end, model.shapes, model.pairs[c.pair]);
     if (g.phi >= floor_of(model, node, c.pair)) continue;
     if (!hold(c.pair, node, f)) return Holds::too_many;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "random_models.hpp"
-#include "saltus/lagrangian/composite.hpp"
+#include "plain/composite.hpp"
 
 namespace saltus::test {
+
+using plain::Composite;
 
 struct Evaluation {
   Kinematics kin;

@@ -7,13 +7,14 @@
 
 #include "lagrangian/evaluate.hpp"
 #include "numeric.hpp"
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "plain/arc_matrix.hpp"
+#include "plain/energy.hpp"
 #include "saltus/lagrangian/partials.hpp"
 
 namespace saltus {
 namespace {
 
+using namespace plain;
 using test::Random;
 using test::RandomTree;
 using test::relative_error;

@@ -3,11 +3,12 @@
 
 #include "lagrangian/evaluate.hpp"
 #include "numeric.hpp"
-#include "saltus/lagrangian/composite.hpp"
+#include "plain/composite.hpp"
 
 namespace saltus {
 namespace {
 
+using namespace plain;
 using test::Random;
 using test::relative_error;
 

@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "count_allocations.hpp"
-#include "lagrangian/evaluate.hpp"
-#include "saltus/lagrangian/arc_matrix.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "lagrangian/packed_trees.hpp"
 #include "saltus/lagrangian/partials.hpp"
 
 namespace saltus {
@@ -19,7 +17,7 @@ TEST(Allocation, CounterSeesEigenAndTheLibrary) {
   EXPECT_GT(here, before);
   EXPECT_EQ(x.sum(), 10);
   const Tree none;
-  lagrangian(none, {}, VecX(), VecX());
+  lagrangian(none, MassModel{}, VecX(), VecX());
   const long empty = allocations - here;  // no arrays: vectors and matrices without entries
   const test::RandomTree t = test::varied_tree(3);
   const long before_call = allocations;
@@ -28,29 +26,33 @@ TEST(Allocation, CounterSeesEigenAndTheLibrary) {
   EXPECT_EQ(L.L_q.size(), t.tree.coordinates);
 }
 
-TEST(Allocation, NoneInTheRecursions) {
-  for (const double mimic : {0.0, 0.3}) {
-    test::Random random(2);
-    const test::RandomTree t = random_tree(random, {.joints = 30, .branch = 0.2, .mimic = mimic});
-    ASSERT_EQ(t.tree.one_to_one, mimic == 0);
-    test::Evaluation at = evaluate(t);
-    ArcMatrix J(t.tree);
-    SecondPartialsTimes times_x;
-    VecX by_joint = VecX::Zero(t.tree.joints()), x = t.v;
-    multiply_second_partials(t.tree, at.kin, at.comp, by_joint, times_x);  // sizes its arrays
+TEST(Allocation, CounterSeesBlocks) {
+  const long before = allocations;
+  const Blocks<3> blocks(2);
+  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(blocks[1].x[2][7], 0);
+}
 
+TEST(Allocation, NoneInTheKernels) {
+  for (int k = 0; k < 12; ++k) {
+    test::PackedEvaluation e(test::packed_tree(k));
+    PackedMatrix J(e.t.tree, e.packed);
+    PackedProducts products(e.packed);
+    SecondPartials rows(e.packed);
+    VecX x = e.t.v;
     const long before = allocations;
-    set_configuration(t.tree, t.q, at.kin);
-    set_velocity(t.tree, t.v, at.kin);
-    first_pass(t.tree, t.mass, at.kin, at.comp);
-    second_pass(t.tree, t.mass, at.kin, at.comp);
-    to_joints(t.tree, t.v, by_joint);
-    multiply_second_partials(t.tree, at.kin, at.comp, by_joint, times_x);
-    to_coordinates(t.tree, times_x.L_vv_x, x);
-    const bool regular = factorize(t.tree, at.kin, at.comp, 0.01, J);
-    solve(t.tree, J, x);
-    EXPECT_EQ(allocations, before) << "mimic " << mimic;
-    EXPECT_TRUE(regular);
+    set_coordinates(e.t.tree, e.packed, e.t.q, e.w);
+    set_rates(e.t.tree, e.packed, e.t.v, e.w);
+    place(e.packed, e.w);
+    move(e.packed, e.w);
+    first_pass(e.packed, e.w);
+    scale_pass(e.packed, 0.1, e.w);
+    second_pass(e.packed, e.w);
+    multiply_by_rates(e.packed, e.w, products);
+    multiply_pairs(e.packed, e.w, rows);
+    factorize(e.t.tree, e.packed, e.w, 0.1, J);
+    solve(e.t.tree, e.packed, J, x);
+    EXPECT_EQ(allocations, before) << k;
   }
 }
 

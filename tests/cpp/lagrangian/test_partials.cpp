@@ -6,12 +6,13 @@
 #include "lagrangian/evaluate.hpp"
 #include "naive.hpp"
 #include "numeric.hpp"
-#include "saltus/lagrangian/energy.hpp"
+#include "plain/energy.hpp"
 #include "saltus/lagrangian/partials.hpp"
 
 namespace saltus {
 namespace {
 
+using namespace plain;
 using test::RandomTree;
 using test::relative_error;
 using test::varied_tree;

@@ -80,6 +80,10 @@ SALTUS_EXPORT void copy_poses(const Tree& tree, const PackedTree& packed, const 
 template <int C>
 void gather(const Tree& tree, const PackedTree& packed, const Blocks<C>& from, int which,
             VecX& out) {
+  if (packed.one_to_one) {
+    for (int i = 0; i < tree.joints(); ++i) out[i] = at(from, packed.slot[i])[which * lanes];
+    return;
+  }
   out.setZero();
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];

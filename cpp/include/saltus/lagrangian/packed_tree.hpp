@@ -33,11 +33,13 @@ using Blocks = std::vector<Block<C>>;
 /// The first number of a slot; its others follow at strides of `lanes`.
 template <int C>
 inline double* at(Blocks<C>& blocks, int slot) {
-  return &blocks[slot / lanes].x[0][slot % lanes];
+  const unsigned k = static_cast<unsigned>(slot);  // whose division is a shift
+  return &blocks[k / lanes].x[0][k % lanes];
 }
 template <int C>
 inline const double* at(const Blocks<C>& blocks, int slot) {
-  return &blocks[slot / lanes].x[0][slot % lanes];
+  const unsigned k = static_cast<unsigned>(slot);
+  return &blocks[k / lanes].x[0][k % lanes];
 }
 
 /// How J x = r is solved on a tree.

@@ -20,4 +20,13 @@ SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const PackedTree& 
 /// M(q) = L_vv, (n_q, n_q).
 SALTUS_EXPORT MatX mass_matrix(const Tree& tree, const PackedTree& packed, const VecRef& q);
 
+/// The same for a tree that is used once.
+inline LagrangianPartials lagrangian(const Tree& tree, const MassModel& mass, const VecRef& q,
+                                     const VecRef& v) {
+  return lagrangian(tree, pack(tree, mass), q, v);
+}
+inline MatX mass_matrix(const Tree& tree, const MassModel& mass, const VecRef& q) {
+  return mass_matrix(tree, pack(tree, mass), q);
+}
+
 }  // namespace saltus

@@ -101,19 +101,19 @@ bool factorize_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
 
 }  // namespace
 
-PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& t)
-    : path(packed::make_path<18>(t)) {
-  const std::size_t n = static_cast<std::size_t>(t.slots / lanes);
+PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& packed)
+    : path(saltus::packed::make_path<18>(packed)) {
+  const std::size_t n = static_cast<std::size_t>(packed.slots / lanes);
   s_t.resize(n);
   u_w.resize(n);
   inverse.resize(n);
   x.resize(n);
   const std::size_t rows =
-      static_cast<std::size_t>(t.one_to_one ? t.lu_row_blocks : t.row_blocks);
+      static_cast<std::size_t>(packed.one_to_one ? packed.lu_row_blocks : packed.row_blocks);
   lower.resize(rows);
   upper.resize(rows);
-  if (has_sweep(t)) prepare_sweep(t, *this);
-  if (t.one_to_one) return;
+  if (has_sweep(packed)) prepare_sweep(packed, *this);
+  if (packed.one_to_one) return;
   dense.setIdentity(tree.coordinates, tree.coordinates);
   solution.setZero(tree.coordinates);
   lu.compute(dense);  // allocates here, so that factorize does not

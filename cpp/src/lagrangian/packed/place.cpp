@@ -5,6 +5,7 @@
 //
 // p is from the reference point O of the tree, as in kinematics.hpp.
 #include "lagrangian/packed/lane.hpp"
+#include "lagrangian/packed/turn.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
 namespace saltus {
@@ -164,32 +165,26 @@ Packed::Packed(const PackedTree& tree) {
   scale.resize(n);
   terms.resize(n);
   U_F_G.resize(n);
-  for (Block<2>& each : turn) {
-    for (double& cosine : each.x[0]) cosine = 1;
-  }
 }
 
 void set_coordinates(const Tree& tree, const PackedTree& t, const VecRef& q, Packed& w) {
-  for (int i = 0; i < tree.joints(); ++i) {
+  for (int i = 0; i < tree.joints() && t.one_to_one; ++i) *at(w.s, t.slot[i]) = q[i];
+  for (int i = 0; i < tree.joints() && !t.one_to_one; ++i) {
     const Drive& drive = tree.drive[i];
     *at(w.s, t.slot[i]) = drive.multiplier * q[drive.coordinate] + drive.offset;
   }
 }
 
 void set_rates(const Tree& tree, const PackedTree& t, const VecRef& v, Packed& w) {
-  for (int i = 0; i < tree.joints(); ++i) {
+  for (int i = 0; i < tree.joints() && t.one_to_one; ++i) *at(w.s_dot, t.slot[i]) = v[i];
+  for (int i = 0; i < tree.joints() && !t.one_to_one; ++i) {
     const Drive& drive = tree.drive[i];
     *at(w.s_dot, t.slot[i]) = drive.multiplier * v[drive.coordinate];
   }
 }
 
 void place(const PackedTree& t, Packed& w) {
-  for (const int slot : t.slot) {
-    if (at(t.kind, slot)[0] == 0) continue;  // does not turn
-    const double s = *at(w.s, slot);
-    at(w.turn, slot)[0] = std::cos(s);
-    at(w.turn, slot)[lanes] = std::sin(s);
-  }
+  packed::set_turns(t, w);
   packed::turn_frames(t, w);
   packed::chain_frames(t, w);
   packed::set_screws(t, w);
