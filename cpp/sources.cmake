@@ -45,7 +45,10 @@ set(SALTUS_SOURCES
   cpp/src/variational/node.cpp
   cpp/src/variational/stepper.cpp
   # rollout
+  cpp/src/rollout/batch.cpp
+  cpp/src/rollout/batch_trajectory.cpp
   cpp/src/rollout/recorder.cpp
+  cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
   cpp/src/urdf/document.cpp
@@ -84,4 +87,5 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_variational.cpp
   # rollout
   python/bindings/bind_rollout.cpp
+  python/bindings/bind_batch.cpp
 )
