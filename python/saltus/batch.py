@@ -104,6 +104,9 @@ def simulate_batch(
         states = _states(model, q, v)
     elif q is not None or v is not None:
         raise ModelError("give either states or q and v, not both")
+    for i, state in enumerate(states):
+        if not isinstance(state, State):
+            raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
     options = StepOptions(h, law, collisions, **bounds)
     with progress_bar(progress, len(states), "runs") as report:
         core = _core.simulate_batch(

@@ -70,16 +70,17 @@ class BatchTrajectory:
         """Wrap what the compiled part returns; large arrays are not copied."""
         names = ("t", "q", "v", "p", "kinetic", "potential", "shadow")
         numbers = ("impacts", "rows", "energy_error", "complete", "failures")
-        total = core.kinetic + core.potential
-        total.flags.writeable = False
+        arrays = {name: getattr(core, name) for name in (*names, *numbers)}
+        arrays["total"] = core.kinetic + core.potential
+        for name in ("total", "energy_error"):
+            arrays[name].flags.writeable = False
         return cls(
             model=core.model,
             options=core.options,
             coordinate_names=tuple(core.model.coordinate_names),
             pair_names=tuple(core.model.pair_names),
-            total=total,
-            **{name: getattr(core, name) for name in (*names, *numbers)},
             _runs=core,
+            **arrays,
         )
 
     def __len__(self) -> int:
