@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -158,24 +159,22 @@ TEST(Batch, ProgressIsToldByTheCallingThreadAndCanStopAll) {
   const std::vector<State> starts = cradle_starts(model, 5);
   const auto caller = std::this_thread::get_id();
   double last = 0;
-  int calls = 0;
   BatchOptions options{.run = {.h = 1e-5, .record_every = 1000}, .threads = 2};
   options.run.progress = [&](double done) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     EXPECT_GE(done, last);
     EXPECT_LE(done, 1);
     last = done;
-    return ++calls < 2;
+    return done < 5e-6;  // 2500 of 5e8 steps
   };
   const BatchTrajectory batch = simulate_batch(model, starts, 1000, options);
-  EXPECT_EQ(calls, 2);
-  EXPECT_GT(last, 0);
+  EXPECT_GE(last, 5e-6);
   EXPECT_TRUE(batch.failures().empty());
   for (int i = 0; i < 5; ++i) {
     EXPECT_FALSE(batch.outcome[i].complete);
     EXPECT_EQ(batch.run(i).q.row(0).transpose(), starts[i].q);
   }
-  EXPECT_GT(batch.outcome[0].rows, 1);
+  EXPECT_GT(std::max(batch.outcome[0].rows, batch.outcome[1].rows), 1);
   EXPECT_EQ(batch.outcome[4].rows, 1);
   EXPECT_TRUE(std::isnan(batch.energy_error()[4]));  // never begun
 
