@@ -21,18 +21,18 @@ PASSES = 5
 THREADS = (1, 2)
 
 
-def batch_seconds(runs: int, duration: float, threads: int) -> float:
-    """Return the wall time of a batch of cradles, whose first balls are let go at 0 to 0.5 rad."""
+def batch_seconds(runs: int, duration: float, threads: int) -> tuple[float, float]:
+    """Return wall and CPU time of a batch of cradles, first balls let go at 0 to 0.5 rad."""
     model = saltus.load_urdf(saltus.scenes.cradle(3))
     angles = {"swing_0": np.linspace(0.0, 0.5, runs)}
-    start = time.perf_counter()
+    start, cpu = time.perf_counter(), time.process_time()
     batch = saltus.simulate_batch(
         model, q=angles, duration=duration, h=0.01, threads=threads, progress=False
     )
-    wall = time.perf_counter() - start
+    wall, cpu = time.perf_counter() - start, time.process_time() - cpu
     if not batch.complete.all():
         raise RuntimeError(f"{len(batch.failures)} of {runs} cradles failed")
-    return wall
+    return wall, cpu
 
 
 def multiply_adds(program: Path, seconds: float, threads: int) -> float:
@@ -61,15 +61,20 @@ def measure(
     Returns
     -------
     dict
-        `runs`, `duration` [s], `steps`; `wall` [s] and `multiply_adds` [1/s], each by number of
-        threads; `scaling` and `scaling_multiply_adds`, 2 threads over 1; `efficiency`, the one over
+        `runs`, `duration` [s], `steps`; `wall` [s], `cpu` [s] (of all threads together, which says
+        something on a busy machine too) and `multiply_adds` [1/s], each by number of threads;
+        `scaling` and `scaling_multiply_adds`, 2 threads over 1; `efficiency`, the one over
         the other: what a batch has of what there is.
     """
     wall: dict[int, list[float]] = {n: [] for n in THREADS}
+    cpu: dict[int, list[float]] = {n: [] for n in THREADS}
     rate: dict[int, list[float]] = {n: [] for n in THREADS}
     for _ in range(passes):
         for threads in THREADS:
-            wall[threads].append(batch_seconds(runs, duration, threads))
+            for times, spent in zip(
+                (wall, cpu), batch_seconds(runs, duration, threads), strict=True
+            ):
+                times[threads].append(spent)
         for threads in THREADS:
             rate[threads].append(multiply_adds(program, min(wall[1]), threads))
     best, most = ({n: f(x[n]) for n in THREADS} for f, x in ((min, wall), (max, rate)))
@@ -79,6 +84,7 @@ def measure(
         "duration": duration,
         "steps": round(runs * duration / 0.01),
         "wall": best,
+        "cpu": {n: min(cpu[n]) for n in THREADS},
         "multiply_adds": most,
         "scaling": scaling,
         "scaling_multiply_adds": possible,
