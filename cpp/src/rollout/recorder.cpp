@@ -9,10 +9,7 @@
 namespace saltus {
 
 EnergyMeter::EnergyMeter(const ModelData& model)
-    : energy{0, 0, 0},
-      w(model.packed),
-      M(model.tree, model.packed),
-      products(model.packed) {
+    : energy{0, 0, 0}, w(model.packed), M(model.tree, model.packed), products(model.packed) {
   for (VecX* x : {&v, &L_q, &L_vq_v, &L_qq_v, &force, &a}) x->setZero(model.tree.coordinates);
 }
 
