@@ -46,7 +46,10 @@ set(SALTUS_SOURCES
   cpp/src/variational/node.cpp
   cpp/src/variational/stepper.cpp
   # rollout
+  cpp/src/rollout/batch.cpp
+  cpp/src/rollout/batch_trajectory.cpp
   cpp/src/rollout/recorder.cpp
+  cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
   cpp/src/urdf/document.cpp
@@ -85,4 +88,5 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_variational.cpp
   # rollout
   python/bindings/bind_rollout.cpp
+  python/bindings/bind_batch.cpp
 )

@@ -1,5 +1,6 @@
 // Rollout floor: many steps in a row, with the interpreter's lock released.
 #include "bindings.hpp"
+#include "progress.hpp"
 #include "saltus/rollout/simulate.hpp"
 
 namespace saltus::bindings {
@@ -52,22 +53,6 @@ Returns
 Energies
 )";
 
-/// Handles signals and calls `progress`; false on Ctrl-C. `progress` is a handle, because C++
-/// copies this function without the interpreter's lock; the caller's argument keeps it alive.
-bool go_on(py::handle progress, double part) {
-  const py::gil_scoped_acquire acquire;
-  try {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress.is_none()) progress(part);
-  } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-    return false;
-  }
-  return true;
-}
-
-using Progress = py::typing::Callable<py::object(double)>;
-
 Trajectory run(const Model& model, const State& start, double duration, const StepOptions& step,
                int record_every, const std::optional<Progress>& progress) {
   SimulateOptions options;
@@ -76,8 +61,7 @@ Trajectory run(const Model& model, const State& start, double duration, const St
   options.collisions = step.collisions;
   options.record_every = record_every;
   options.step = step;
-  const py::handle told = progress ? py::handle(*progress) : py::handle(Py_None);
-  options.progress = [told](double part) { return go_on(told, part); };
+  options.progress = asking_python(progress);
   const py::gil_scoped_release release;
   return simulate(model, start, duration, options);
 }

@@ -30,6 +30,7 @@ void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
 void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
+void bind_batch(py::module_& m);
 
 /// What a user gives for q or v: names and values (coordinates not named are 0), an array (n_q), or
 /// None for zeros.

@@ -16,4 +16,5 @@ PYBIND11_MODULE(_core, m) {
   bind_variational(m);
   bind_stepper(m);
   bind_rollout(m);
+  bind_batch(m);
 }

@@ -35,6 +35,7 @@ from saltus._core import (
     Model,
     ModelBuilder,
     ModelError,
+    OnFailure,
     Pair,
     PlacedShape,
     Pose,
@@ -57,6 +58,8 @@ from saltus._core import (
     shape_name,
     solid_sphere,
 )
+from saltus.batch import simulate_batch
+from saltus.batch_trajectory import BatchTrajectory
 from saltus.files import load
 from saltus.paths import cmake_dir, urdf_dir
 from saltus.rollout import simulate
@@ -64,6 +67,7 @@ from saltus.trajectory import Trajectory
 from saltus.urdf import ModelWarning, load_urdf
 
 __all__ = [
+    "BatchTrajectory",
     "BodyInertia",
     "Box",
     "Capsule",
@@ -87,6 +91,7 @@ __all__ = [
     "ModelBuilder",
     "ModelError",
     "ModelWarning",
+    "OnFailure",
     "Pair",
     "PlacedShape",
     "Pose",
@@ -113,6 +118,7 @@ __all__ = [
     "scenes",
     "shape_name",
     "simulate",
+    "simulate_batch",
     "solid_sphere",
     "urdf_dir",
 ]

@@ -11,6 +11,7 @@ import os
 import typing
 
 __all__: list[str] = [
+    "BatchTrajectory",
     "BodyInertia",
     "Box",
     "Capsule",
@@ -33,6 +34,7 @@ __all__: list[str] = [
     "Model",
     "ModelBuilder",
     "ModelError",
+    "OnFailure",
     "Pair",
     "PlacedShape",
     "Pose",
@@ -54,7 +56,9 @@ __all__: list[str] = [
     "rotation_from_rpy",
     "shape_name",
     "simulate",
+    "simulate_batch",
     "solid_sphere",
+    "states",
 ]
 
 class ModelError(ValueError):
@@ -1331,6 +1335,92 @@ class Energies:
         [J] H - h^2 kappa / 24
         """
 
+class OnFailure(enum.Enum):
+    """
+    What becomes of the other runs of a batch where one fails.
+
+    go_on
+        They go on; `failures` of the batch holds the message.
+    stop
+        The batch stops and raises the run's error, with "run <index>: " before it.
+    """
+
+    go_on = ...
+    stop = ...
+
+class BatchTrajectory:
+    """
+    The arrays of a batch, as read-only views; `saltus.BatchTrajectory` wraps this.
+    """
+    def run(self, index: typing.SupportsInt | typing.SupportsIndex) -> Trajectory:
+        """
+        One run as a Trajectory of its own.
+        """
+    @property
+    def complete(self) -> typing.Any:
+        """
+        shape (runs,)
+        """
+    @property
+    def energy_error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        shape (runs,)
+        """
+    @property
+    def failures(self) -> dict[int, str]:
+        """
+        message of each run that failed
+        """
+    @property
+    def impacts(self) -> typing.Any:
+        """
+        number of impacts, shape (runs,)
+        """
+    @property
+    def kinetic(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [J] shape (runs, rows)
+        """
+    @property
+    def model(self) -> Model: ...
+    @property
+    def options(self) -> StepOptions: ...
+    @property
+    def p(self) -> typing.Any:
+        """
+        shape (runs, rows, n)
+        """
+    @property
+    def potential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [J] shape (runs, rows)
+        """
+    @property
+    def q(self) -> typing.Any:
+        """
+        [rad | m] shape (runs, rows, n)
+        """
+    @property
+    def rows(self) -> typing.Any:
+        """
+        number of rows that were reached, shape (runs,)
+        """
+    @property
+    def shadow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [J] shape (runs, rows)
+        """
+    @property
+    def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [s] shape (rows,)
+        """
+    @property
+    def v(self) -> typing.Any:
+        """
+        [rad/s | m/s] shape (runs, rows, n)
+        """
+
 def energies(
     model: Model, state: State, h: typing.SupportsFloat | typing.SupportsIndex
 ) -> Energies:
@@ -1528,6 +1618,48 @@ def simulate(
         As `Stepper.advance`.
     """
 
+def simulate_batch(
+    model: Model,
+    starts: collections.abc.Sequence[State],
+    duration: typing.SupportsFloat | typing.SupportsIndex,
+    *,
+    options: StepOptions = ...,
+    record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    threads: typing.SupportsInt | typing.SupportsIndex = 0,
+    on_failure: OnFailure = ...,
+    progress: collections.abc.Callable[[float], typing.Any] | None = None,
+) -> BatchTrajectory:
+    """
+    Runs round(duration / h) steps from every start.
+
+    Parameters
+    ----------
+    model : Model
+    starts : list of State
+    duration : float
+        [s] a whole number of steps.
+    options : StepOptions
+    record_every : int
+        Steps between recorded rows.
+    threads : int
+        0: as many as the machine runs at once. The bits do not depend on it.
+    on_failure : OnFailure
+    progress : callable, optional
+        Called about ten times a second with the part done in [0, 1]; what it returns is not used.
+
+    Returns
+    -------
+    BatchTrajectory
+        Runs that Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
+
+    Raises
+    ------
+    ModelError
+        Before anything runs, on numbers that make no run.
+    StepError, JammedError, ModelError
+        With OnFailure.stop, the error of the first run, by index, that fails.
+    """
+
 def solid_sphere(
     mass: typing.SupportsFloat | typing.SupportsIndex,
     radius: typing.SupportsFloat | typing.SupportsIndex,
@@ -1545,6 +1677,30 @@ def solid_sphere(
     Returns
     -------
     BodyInertia
+    """
+
+def states(
+    model: Model,
+    q: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    v: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+) -> list[State]:
+    """
+    Starts at t = 0, one of each row of q and v.
+
+    Parameters
+    ----------
+    model : Model
+    q, v : numpy.ndarray, shape (runs, n)
+        Coordinates [rad | m] and velocities.
+
+    Returns
+    -------
+    list of State
+
+    Raises
+    ------
+    ModelError
+        On other shapes; on a value that is not finite, by row and coordinate.
     """
 
 __version__: str = "0.1.0"

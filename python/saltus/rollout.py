@@ -21,7 +21,7 @@ Progress = Callable[[float], object]
 
 # Runs that end sooner need no bar.
 BAR_DELAY = 2.0  # [s]
-BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} s [{elapsed}<{remaining}]"
+BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} {unit} [{elapsed}<{remaining}]"
 
 
 class StepBounds(TypedDict, total=False):
@@ -92,13 +92,13 @@ def simulate(
     JammedError
         When the impulses at one instant do not end.
     """
-    _check_types(model, law, bounds)
+    check_types(model, law, bounds, "simulate")
     if state is None:
         state = model.state(q, v)
     elif q is not None or v is not None:
         raise ModelError("give either state or q and v, not both")
     options = StepOptions(h, law, collisions, **bounds)
-    with _progress_bar(progress, duration) as report:
+    with progress_bar(progress, duration, "s") as report:
         core = _core.simulate(
             model, state, duration, options=options, record_every=record_every, progress=report
         )
@@ -111,7 +111,7 @@ def simulate(
     return Trajectory.from_core(core)
 
 
-def _check_types(model: object, law: object, bounds: Mapping[str, object]) -> None:
+def check_types(model: object, law: object, bounds: Mapping[str, object], caller: str) -> None:
     """Raise TypeError in words; the compiled part would print all its signatures."""
     if not isinstance(model, Model):
         raise TypeError(f"model is a {type(model).__name__}; saltus.load_urdf makes a Model of it")
@@ -121,12 +121,14 @@ def _check_types(model: object, law: object, bounds: Mapping[str, object]) -> No
     for name in bounds:
         if name not in StepBounds.__annotations__:
             names = ", ".join(StepBounds.__annotations__)
-            raise TypeError(f'simulate() has no argument "{name}"; bounds of a step are {names}')
+            raise TypeError(f'{caller}() has no argument "{name}"; bounds of a step are {names}')
 
 
 @contextmanager
-def _progress_bar(progress: bool | Progress | None, duration: float) -> Iterator[Progress | None]:
-    """Give the function that `_core.simulate` is to call."""
+def progress_bar(
+    progress: bool | Progress | None, total: float, unit: str
+) -> Iterator[Progress | None]:
+    """Give the function that the compiled part is to call with the part done."""
     if progress is False:
         yield None
         return
@@ -135,10 +137,11 @@ def _progress_bar(progress: bool | Progress | None, duration: float) -> Iterator
         return
     always = progress is True
     with tqdm(
-        total=duration,
+        total=total,
+        unit=unit,
         bar_format=BAR_FORMAT,
         delay=0.0 if always else BAR_DELAY,
         disable=False if always else None,  # None: only where stderr is a terminal
         leave=always,
     ) as bar:
-        yield lambda part: bar.update(part * duration - bar.n)
+        yield lambda part: bar.update(part * total - bar.n)

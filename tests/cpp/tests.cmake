@@ -38,12 +38,14 @@ set(SALTUS_TEST_model
 set(SALTUS_TEST_variational
   variational/test_cradle.cpp
   variational/test_discrete_energy.cpp
+  variational/test_forget.cpp
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_stepper.cpp
   variational/test_sustained.cpp
 )
 set(SALTUS_TEST_rollout
+  rollout/test_batch.cpp
   rollout/test_simulate.cpp
 )
 set(SALTUS_TEST_urdf

@@ -3,6 +3,7 @@
 
 #include "saltus/collision/gap.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "saltus/rollout/batch.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 #include "saltus/variational/cascade.hpp"

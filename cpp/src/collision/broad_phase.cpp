@@ -197,4 +197,9 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
   std::sort(bp.candidates.begin(), bp.candidates.end());
 }
 
+void start_anew(BroadPhase& bp) {
+  bp.axis = 0;
+  std::sort(bp.order.begin(), bp.order.end());
+}
+
 }  // namespace saltus

@@ -9,10 +9,7 @@
 namespace saltus {
 
 EnergyMeter::EnergyMeter(const ModelData& model)
-    : energy{0, 0, 0},
-      w(model.packed),
-      M(model.tree, model.packed),
-      products(model.packed) {
+    : energy{0, 0, 0}, w(model.packed), M(model.tree, model.packed), products(model.packed) {
   for (VecX* x : {&v, &L_q, &L_vq_v, &L_qq_v, &force, &a}) x->setZero(model.tree.coordinates);
 }
 
@@ -67,25 +64,33 @@ void truncate(Trajectory& run, Eigen::Index rows) {
   for (MatX* x : {&run.q, &run.v, &run.p}) x->conservativeResize(rows, Eigen::NoChange);
 }
 
-void record(const State& state, double t, const EnergyMeter& meter, Eigen::Index row,
-            Trajectory& run) {
-  run.t[row] = t;
-  run.q.row(row) = state.q;
-  run.v.row(row) = meter.v;
-  run.p.row(row) = state.p;
-  run.kinetic[row] = meter.energy.kinetic;
-  run.potential[row] = meter.energy.potential;
-  run.shadow[row] = meter.energy.shadow;
+void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows& rows) {
+  rows.q.row(row) = state.q;
+  rows.v.row(row) = meter.v;
+  rows.p.row(row) = state.p;
+  rows.kinetic[row] = meter.energy.kinetic;
+  rows.potential[row] = meter.energy.potential;
+  rows.shadow[row] = meter.energy.shadow;
 }
 
-double Trajectory::energy_error() const {
-  if (t.size() == 0) return 0;
-  const VecX H = total();
+void take_outcome(RunOutcome&& outcome, Trajectory& run) {
+  run.impacts = std::move(outcome.impacts);
+  run.impulses = std::move(outcome.impulses);
+  run.iterations = outcome.iterations;
+  run.residual = outcome.residual;
+  run.complete = outcome.complete;
+}
+
+double energy_error(const VecRef& kinetic, const VecRef& potential) {
+  if (kinetic.size() == 0) return 0;
+  const VecX H = kinetic + potential;
   const double error = (H.array() - H[0]).abs().maxCoeff(), scale = kinetic.maxCoeff();
   // where nothing moves, both are the rounding of the potential
   const double rounding =
       32 * std::numeric_limits<double>::epsilon() * potential.cwiseAbs().maxCoeff();
   return error <= rounding && scale <= rounding ? 0 : error / scale;
 }
+
+double Trajectory::energy_error() const { return saltus::energy_error(kinetic, potential); }
 
 }  // namespace saltus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/rollout/batch.hpp"
 #include "saltus/rollout/trajectory.hpp"
 
 namespace saltus {
@@ -28,7 +29,17 @@ Trajectory empty_trajectory(const Model& model, Eigen::Index rows);
 /// Cuts it to the first `rows` rows.
 void truncate(Trajectory& run, Eigen::Index rows);
 
-void record(const State& state, double t, const EnergyMeter& meter, Eigen::Index row,
-            Trajectory& run);
+/// Where the rows of one run go: all of a trajectory's, or a batch's share.
+struct Rows {
+  Eigen::Ref<MatX> q, v, p;                     ///< (rows, n_q)
+  Eigen::Ref<VecX> kinetic, potential, shadow;  ///< (rows) [J]
+};
+
+void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows& rows);
+
+void take_outcome(RunOutcome&& outcome, Trajectory& run);
+
+/// As Trajectory::energy_error; both are (rows).
+double energy_error(const VecRef& kinetic, const VecRef& potential);
 
 }  // namespace saltus

@@ -79,6 +79,8 @@ State Stepper::advance(const State& state) {
 
 void Stepper::step(State& state) { impl_->step(state); }
 
+void Stepper::forget() { impl_->last_is_valid = false; }
+
 // The step: fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step(State& state) {
   report.iterations = report.arcs = report.sustained = 0;
@@ -104,6 +106,8 @@ void Stepper::Impl::start(const State& state) {
   last_is_valid = false;
   flight.history.clear();
   node.launch.pending = false;
+  start_anew(node.broad);
+  start_anew(flight.broad);
   std::fill(node.held.begin(), node.held.end(), 0);
   node.t = state.t;
   node.q = state.q;

@@ -46,4 +46,7 @@ SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedSha
                                    const Kinematics& kin, const VecRef& dq, double margin,
                                    BroadPhase& bp);
 
+/// Forgets the coherence. The candidates of balls that touch to the last bit may depend on it.
+SALTUS_EXPORT void start_anew(BroadPhase& bp);
+
 }  // namespace saltus

@@ -29,6 +29,10 @@ class SALTUS_EXPORT Stepper {
   /// as it was.
   void step(State& state);
 
+  /// Takes the next state as a start, also where it is the one that the last step ended with: what
+  /// comes is what a new Stepper would give, to the last bit.
+  void forget();
+
   const StepReport& report() const;
   const Model& model() const;
   const StepOptions& options() const;

@@ -1,0 +1,132 @@
+// Starts into a batch, single runs out of it.
+#include <cmath>
+#include <sstream>
+
+#include "rollout/batch_storage.hpp"
+
+namespace saltus {
+namespace {
+
+void check_array(const Model& model, const Eigen::Ref<const MatX>& x, const std::string& what) {
+  std::ostringstream text;
+  if (x.cols() != model.n_q()) {
+    text << what << " has shape (" << x.rows() << ", " << x.cols()
+         << "); it must have a column for each of the " << model.n_q() << " coordinates";
+    throw ModelError(text.str());
+  }
+  for (Eigen::Index row = 0; row < x.rows(); ++row) {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      if (std::isfinite(x(row, i))) continue;
+      text << what << "[" << row << ", \"" << model->coordinates[i].name << "\"] = " << x(row, i)
+           << " is not finite";
+      throw ModelError(text.str());
+    }
+  }
+}
+
+/// Names the coordinate, as check_vector cannot.
+void check_start(const Model& model, const VecX& x, const std::string& what) {
+  for (Eigen::Index i = 0; i < x.size() && x.size() == model.n_q(); ++i) {
+    if (std::isfinite(x[i])) continue;
+    std::ostringstream text;
+    text << what << "[\"" << model->coordinates[i].name << "\"] = " << x[i] << " is not finite";
+    throw ModelError(text.str());
+  }
+  check_vector(x, model.n_q(), what);
+}
+
+}  // namespace
+
+std::vector<State> states(const Model& model, const Eigen::Ref<const MatX>& q,
+                          const Eigen::Ref<const MatX>& v, double t) {
+  check_array(model, q, "q");
+  check_array(model, v, "v");
+  if (q.rows() != v.rows()) {
+    throw ModelError("q has " + std::to_string(q.rows()) + " rows and v has " +
+                     std::to_string(v.rows()) + "; a row is a run");
+  }
+  std::vector<State> out;
+  out.reserve(static_cast<std::size_t>(q.rows()));
+  for (Eigen::Index i = 0; i < q.rows(); ++i) {
+    out.push_back(model.state(VecX(q.row(i)), VecX(v.row(i)), t));
+  }
+  return out;
+}
+
+void check_starts(const Model& model, std::span<const State> starts) {
+  if (starts.empty()) throw ModelError("no starts; a batch has at least one run");
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::string name = "states[" + std::to_string(i) + "]";
+    check_start(model, starts[i].q, name + ".q");
+    check_start(model, starts[i].p, name + ".p");
+    std::ostringstream text;
+    if (!std::isfinite(starts[i].t)) {
+      text << name << ".t = " << starts[i].t << " is not finite";
+    } else if (starts[i].t != starts[0].t) {
+      text << name << ".t = " << starts[i].t << " s, and states[0].t = " << starts[0].t
+           << " s; the runs of a batch start at the same time";
+    }
+    if (!text.str().empty()) throw ModelError(text.str());
+  }
+}
+
+BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<const State> starts) {
+  const auto runs = static_cast<Eigen::Index>(starts.size());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  BatchTrajectory out{model, plan.step, row_times(plan, starts[0].t), {}, {}, {}, {}, {}, {}, {}};
+  for (MatX* x : {&out.q, &out.v, &out.p}) x->setConstant(runs * plan.rows, model.n_q(), nan);
+  for (MatX* x : {&out.kinetic, &out.potential, &out.shadow}) x->setConstant(runs, plan.rows, nan);
+  out.outcome.resize(starts.size());
+  for (Eigen::Index i = 0; i < runs; ++i) {
+    out.q.row(i * plan.rows) = starts[i].q;
+    out.p.row(i * plan.rows) = starts[i].p;
+  }
+  return out;
+}
+
+Rows rows_of(BatchTrajectory& batch, Eigen::Index i) {
+  const Eigen::Index rows = batch.t.size();
+  const auto energies = [&](MatX& x) { return Eigen::Map<VecX>(x.data() + i * rows, rows); };
+  return {batch.q.middleRows(i * rows, rows), batch.v.middleRows(i * rows, rows),
+          batch.p.middleRows(i * rows, rows), energies(batch.kinetic),
+          energies(batch.potential),          energies(batch.shadow)};
+}
+
+Trajectory BatchTrajectory::run(int i) const {
+  if (i < 0 || i >= runs()) {
+    throw ModelError("no run " + std::to_string(i) + "; the batch has " + std::to_string(runs()));
+  }
+  const RunOutcome& own = outcome[i];
+  const Eigen::Index first = i * t.size(), rows = own.rows;
+  Trajectory out = empty_trajectory(model, 0);
+  out.options = options;
+  out.t = t.head(rows);
+  out.q = q.middleRows(first, rows);
+  out.v = v.middleRows(first, rows);
+  out.p = p.middleRows(first, rows);
+  out.kinetic = kinetic.row(i).head(rows);
+  out.potential = potential.row(i).head(rows);
+  out.shadow = shadow.row(i).head(rows);
+  take_outcome(RunOutcome(own), out);
+  return out;
+}
+
+VecX BatchTrajectory::energy_error() const {
+  VecX out(runs());
+  for (int i = 0; i < runs(); ++i) {
+    const Eigen::Index rows = outcome[i].rows;
+    out[i] =
+        saltus::energy_error(VecX(kinetic.row(i).head(rows)), VecX(potential.row(i).head(rows)));
+  }
+  return out;
+}
+
+std::map<int, std::string> BatchTrajectory::failures() const {
+  std::map<int, std::string> out;
+  for (int i = 0; i < runs(); ++i) {
+    if (!outcome[i].failure.empty()) out[i] = outcome[i].failure;
+  }
+  return out;
+}
+
+}  // namespace saltus

@@ -1,0 +1,98 @@
+#include "rollout/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace saltus {
+namespace {
+
+long count_steps(double duration, const SimulateOptions& options) {
+  std::ostringstream text;
+  if (!(options.h > 0) || !std::isfinite(options.h)) {
+    text << "h = " << options.h << " s; it must be positive and finite";
+  } else if (!(duration > 0) || !std::isfinite(duration)) {
+    text << "duration = " << duration << " s; it must be positive and finite";
+  } else if (options.record_every < 1) {
+    text << "record_every = " << options.record_every << "; it must be at least 1";
+  }
+  if (!text.str().empty()) throw ModelError(text.str());
+  const double steps = std::round(duration / options.h);
+  if (std::abs(steps * options.h - duration) > 1e-9 * duration) {
+    text << "duration = " << duration << " s is no whole number of steps of h = " << options.h
+         << " s; the nearest is " << steps * options.h << " s";
+    throw ModelError(text.str());
+  }
+  if (steps > 1e12) {
+    text << "duration / h = " << steps << " steps are more than 1e12";
+    throw ModelError(text.str());
+  }
+  return static_cast<long>(steps);
+}
+
+void add_report(const StepReport& report, RunOutcome& outcome) {
+  const int shift = static_cast<int>(outcome.impulses.size());
+  for (Impact impact : report.impacts) {
+    impact.first += shift;
+    outcome.impacts.push_back(impact);
+  }
+  outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
+  outcome.iterations += report.iterations;
+  outcome.residual = std::max(outcome.residual, report.residual);
+}
+
+}  // namespace
+
+Plan make_plan(double duration, const SimulateOptions& options) {
+  Plan plan;
+  plan.steps = count_steps(duration, options);
+  plan.record_every = options.record_every;
+  plan.rows = (plan.steps + options.record_every - 1) / options.record_every + 1;
+  plan.step = options.step;
+  plan.step.h = options.h;
+  plan.step.law = options.law;
+  plan.step.collisions = options.collisions;
+  return plan;
+}
+
+void check_memory(const Model& model, const Plan& plan, Eigen::Index runs) {
+  // Asking the machine for more may well succeed and end in the kernel's killing the program.
+  constexpr double most_gigabytes = 16;
+  const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
+  const double gigabytes = doubles * (4 + 3 * model.n_q()) * 8e-9;
+  if (gigabytes <= most_gigabytes) return;
+  std::ostringstream text;
+  if (runs > 1) text << runs << " runs of ";
+  text << plan.rows << " rows of " << model.n_q() << " coordinates are " << gigabytes
+       << " GB, more than " << most_gigabytes << "; record fewer with record_every, now "
+       << plan.record_every;
+  throw ModelError(text.str());
+}
+
+VecX row_times(const Plan& plan, double t0) {
+  VecX t(plan.rows);
+  for (Eigen::Index row = 0; row < plan.rows; ++row) {
+    const long k = std::min<long>(row * plan.record_every, plan.steps);
+    t[row] = t0 + static_cast<double>(k) * plan.step.h;
+  }
+  return t;
+}
+
+void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
+         Stepper& stepper, EnergyMeter& meter, Rows rows, RunOutcome& outcome) {
+  stepper.forget();
+  State state = start;
+  measure(*model, state, plan.step.h, meter);
+  record(state, meter, 0, rows);
+  long k = 0;
+  for (; k < plan.steps && go_on(k); ++k) {
+    stepper.step(state);
+    add_report(stepper.report(), outcome);
+    if ((k + 1) % plan.record_every != 0 && k + 1 != plan.steps) continue;
+    measure(*model, state, plan.step.h, meter);
+    record(state, meter, outcome.rows++, rows);
+  }
+  outcome.complete = k == plan.steps;
+}
+
+}  // namespace saltus

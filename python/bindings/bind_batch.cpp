@@ -1,0 +1,158 @@
+// Rollout floor: many runs over threads, with the interpreter's lock released.
+#include <pybind11/native_enum.h>
+
+#include "bindings.hpp"
+#include "progress.hpp"
+#include "saltus/rollout/batch.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+constexpr auto on_failure_doc = R"(What becomes of the other runs of a batch where one fails.
+
+go_on
+    They go on; `failures` of the batch holds the message.
+stop
+    The batch stops and raises the run's error, with "run <index>: " before it.
+)";
+
+constexpr auto batch_doc =
+    R"(The arrays of a batch, as read-only views; `saltus.BatchTrajectory` wraps this.)";
+
+constexpr auto states_doc = R"(Starts at t = 0, one of each row of q and v.
+
+Parameters
+----------
+model : Model
+q, v : numpy.ndarray, shape (runs, n)
+    Coordinates [rad | m] and velocities.
+
+Returns
+-------
+list of State
+
+Raises
+------
+ModelError
+    On other shapes; on a value that is not finite, by row and coordinate.
+)";
+
+constexpr auto simulate_batch_doc = R"(Runs round(duration / h) steps from every start.
+
+Parameters
+----------
+model : Model
+starts : list of State
+duration : float
+    [s] a whole number of steps.
+options : StepOptions
+record_every : int
+    Steps between recorded rows.
+threads : int
+    0: as many as the machine runs at once. The bits do not depend on it.
+on_failure : OnFailure
+progress : callable, optional
+    Called about ten times a second with the part done in [0, 1]; what it returns is not used.
+
+Returns
+-------
+BatchTrajectory
+    Runs that Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
+
+Raises
+------
+ModelError
+    Before anything runs, on numbers that make no run.
+StepError, JammedError, ModelError
+    With OnFailure.stop, the error of the first run, by index, that fails.
+)";
+
+BatchTrajectory run(const Model& model, const std::vector<State>& starts, double duration,
+                    const StepOptions& step, int record_every, int threads, OnFailure on_failure,
+                    const std::optional<Progress>& progress) {
+  BatchOptions options;
+  options.run.h = step.h;
+  options.run.law = step.law;
+  options.run.collisions = step.collisions;
+  options.run.record_every = record_every;
+  options.run.step = step;
+  options.run.progress = asking_python(progress);
+  options.threads = threads;
+  options.on_failure = on_failure;
+  const py::gil_scoped_release release;
+  return simulate_batch(model, starts, duration, options);
+}
+
+std::vector<State> make_states(const Model& model, const Eigen::Ref<const MatX>& q,
+                               const Eigen::Ref<const MatX>& v) {
+  const py::gil_scoped_release release;
+  return states(model, q, v);
+}
+
+py::object read_only(py::array array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// (runs * rows, n) as (runs, rows, n), without a copy.
+template <auto field>
+py::object by_run(const py::object& self) {
+  const auto& batch = self.cast<const BatchTrajectory&>();
+  const std::vector<py::ssize_t> shape{batch.runs(), batch.t.size(), (batch.*field).cols()};
+  return read_only(py::array(py::dtype::of<double>(), shape, (batch.*field).data(), self));
+}
+
+/// One number of every run.
+template <class Number, class Get>
+auto each(Get get) {
+  return [get](const BatchTrajectory& batch) {
+    py::array_t<Number> out(batch.runs());
+    for (int i = 0; i < batch.runs(); ++i) out.mutable_at(i) = get(batch.outcome[i]);
+    return read_only(out);
+  };
+}
+
+void bind_batch_trajectory(py::module_& m) {
+  using B = BatchTrajectory;
+  py::class_<B>(m, "BatchTrajectory", batch_doc)
+      .def_readonly("model", &B::model)
+      .def_readonly("options", &B::options)
+      .def_readonly("t", &B::t, "[s] shape (rows,)")
+      .def_property_readonly("q", &by_run<&B::q>, "[rad | m] shape (runs, rows, n)")
+      .def_property_readonly("v", &by_run<&B::v>, "[rad/s | m/s] shape (runs, rows, n)")
+      .def_property_readonly("p", &by_run<&B::p>, "shape (runs, rows, n)")
+      .def_readonly("kinetic", &B::kinetic, "[J] shape (runs, rows)")
+      .def_readonly("potential", &B::potential, "[J] shape (runs, rows)")
+      .def_readonly("shadow", &B::shadow, "[J] shape (runs, rows)")
+      .def_property_readonly("impacts", each<py::ssize_t>([](const RunOutcome& o) {
+                               return static_cast<py::ssize_t>(o.impacts.size());
+                             }),
+                             "number of impacts, shape (runs,)")
+      .def_property_readonly("rows", each<py::ssize_t>([](const RunOutcome& o) {
+                               return static_cast<py::ssize_t>(o.rows);
+                             }),
+                             "number of rows that were reached, shape (runs,)")
+      .def_property_readonly("complete", each<bool>([](const RunOutcome& o) { return o.complete; }),
+                             "shape (runs,)")
+      .def_property_readonly("energy_error", &B::energy_error, "shape (runs,)")
+      .def_property_readonly("failures", &B::failures, "message of each run that failed")
+      .def("run", &B::run, "One run as a Trajectory of its own.", py::arg("index"));
+}
+
+}  // namespace
+
+void bind_batch(py::module_& m) {
+  py::native_enum<OnFailure>(m, "OnFailure", "enum.Enum", on_failure_doc)
+      .value("go_on", OnFailure::go_on)
+      .value("stop", OnFailure::stop)
+      .finalize();
+  bind_batch_trajectory(m);
+  m.def("states", &make_states, states_doc, py::arg("model"), py::arg("q"), py::arg("v"));
+  m.def("simulate_batch", &run, simulate_batch_doc, py::arg("model"), py::arg("starts"),
+        py::arg("duration"), py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
+        py::arg("record_every") = 1, py::arg("threads") = 0,
+        py::arg_v("on_failure", OnFailure::go_on, "OnFailure.go_on"),
+        py::arg("progress") = py::none());
+}
+
+}  // namespace saltus::bindings

@@ -1,0 +1,193 @@
+"""Running a model from many starts at once."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from saltus import _core
+from saltus._core import ImpactLaw, Model, ModelError, OnFailure, State, StepOptions
+from saltus.batch_trajectory import BatchTrajectory
+from saltus.rollout import Progress, StepBounds, check_types, progress_bar
+from saltus.trajectory import Array
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Starts = Mapping[str, ArrayLike] | ArrayLike | None
+
+
+def simulate_batch(
+    model: Model,
+    q: Starts = None,
+    v: Starts = None,
+    *,
+    duration: float,
+    h: float = 0.01,
+    law: ImpactLaw = ImpactLaw.nodal_energy,
+    collisions: bool = True,
+    record_every: int = 1,
+    states: Sequence[State] | None = None,
+    threads: int | None = None,
+    on_failure: OnFailure = OnFailure.go_on,
+    progress: bool | Progress | None = None,
+    **bounds: Unpack[StepBounds],
+) -> BatchTrajectory:
+    """Run a model from many starts, over threads, and record all runs.
+
+    Every run has the bits that `simulate` gives for its start, on however many threads. The
+    interpreter's lock is released meanwhile.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (B, n), or mapping of names to arrays of shape (B,), optional
+        [rad | m] coordinates at the starts, a row a run; those not named are 0. What has one
+        dimension less, (n,) or a number, is the same for all runs.
+    v : array_like, shape (B, n), or mapping of names to arrays of shape (B,), optional
+        [rad/s | m/s] velocities at the starts, likewise.
+    duration : float
+        [s] a whole number of steps.
+    h : float
+        [s] step.
+    law : ImpactLaw
+        Which energy impacts conserve: `nodal_energy` or `discrete_energy`.
+    collisions : bool
+        False: bodies pass through each other.
+    record_every : int
+        Steps between recorded rows; start and end are always recorded, and a number of at least
+        duration / h leaves these two.
+    states : sequence of State, optional
+        The starts in place of `q` and `v`, all at the same time.
+    threads : int, optional
+        How many; None: as many as the machine runs at once.
+    on_failure : OnFailure
+        `OnFailure.go_on`: a run whose step cannot be made, or whose start overlaps, is not
+        `complete`, its message is in `failures`, and a RuntimeWarning tells of it.
+        `OnFailure.stop`: its error is raised; where several runs fail, that of the first of them.
+    progress : bool or callable, optional
+        None: a progress bar on a terminal when the batch takes longer than 2 s; True, False:
+        always, never; a callable is given the part done in [0, 1] about ten times a second.
+    **bounds
+        `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
+        `StepOptions`.
+
+    Returns
+    -------
+    BatchTrajectory
+        Ctrl-C ends the batch early; it then holds what is done so far, and runs that had not ended
+        are not `complete`.
+
+    Raises
+    ------
+    ModelError
+        Before anything runs, on starts that do not fit the model or are not finite, none at all,
+        a duration or h that is not positive, a duration that is no whole number of steps,
+        threads < 1, more than 16 GB of rows. With `OnFailure.stop` also on a start that overlaps.
+    StepError, JammedError
+        With `OnFailure.stop`, as `simulate`, with "run <index>: " before the message.
+    """
+    check_types(model, law, bounds, "simulate_batch")
+    if not isinstance(on_failure, OnFailure):
+        raise TypeError(
+            f"on_failure = {on_failure!r} is no OnFailure; there are saltus.OnFailure.go_on, "
+            "saltus.OnFailure.stop"
+        )
+    if threads is not None and threads < 1:
+        raise ModelError(f"threads = {threads}; it must be at least 1, or None for all there are")
+    if states is None:
+        states = _states(model, q, v)
+    elif q is not None or v is not None:
+        raise ModelError("give either states or q and v, not both")
+    for i, state in enumerate(states):
+        if not isinstance(state, State):
+            raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
+    options = StepOptions(h, law, collisions, **bounds)
+    with progress_bar(progress, len(states), "runs") as report:
+        core = _core.simulate_batch(
+            model,
+            states,
+            duration,
+            options=options,
+            record_every=record_every,
+            threads=threads or 0,
+            on_failure=on_failure,
+            progress=report,
+        )
+    batch = BatchTrajectory.from_core(core)
+    _tell(batch)
+    return batch
+
+
+def _states(model: Model, q: Starts, v: Starts) -> list[State]:
+    arrays = {"q": _to_array("q", q, model), "v": _to_array("v", v, model)}
+    rows = {name: len(x) for name, x in arrays.items() if x.ndim == 2}
+    if not rows:
+        raise ModelError(
+            "q and v hold a single start; a batch takes a row a run, shape (runs, n); a single "
+            "start is for simulate"
+        )
+    runs = max(rows.values())
+    if min(rows.values()) != runs:
+        raise ModelError(f"q has {rows['q']} rows and v has {rows['v']}; a row is a run")
+    return _core.states(model, *(np.broadcast_to(x, (runs, model.n_q)) for x in arrays.values()))
+
+
+def _to_array(what: str, x: Starts, model: Model) -> Array:
+    """Return the array (B, n) that is meant, (n,) where it is the same for all runs."""
+    n = model.n_q
+    if x is None:
+        return np.zeros(n)
+    if isinstance(x, Mapping):
+        return _from_mapping(what, x, model)
+    array = _numbers(what, x)
+    if array.ndim not in (1, 2) or array.shape[-1] != n:
+        raise ModelError(
+            f"{what} has shape {array.shape}; it must have shape (runs, {n}), a column for each "
+            f"of the coordinates {', '.join(model.coordinate_names)}"
+        )
+    return array
+
+
+def _from_mapping(what: str, x: Mapping[str, ArrayLike], model: Model) -> Array:
+    columns = {model.coordinate(name): _numbers(f'{what}["{name}"]', x[name]) for name in x}
+    shapes = {name: column.shape for name, column in zip(x, columns.values(), strict=True)}
+    lengths = {shape for shape in shapes.values() if shape}
+    if len(lengths) > 1 or any(len(shape) > 1 for shape in lengths):
+        listed = ", ".join(f'"{name}": {shape}' for name, shape in shapes.items())
+        raise ModelError(f"{what} has arrays of shapes {{{listed}}}; all must be (runs,) or ()")
+    out = np.zeros((*(lengths.pop() if lengths else ()), model.n_q))
+    for index, column in columns.items():
+        out[..., index] = column
+    return out
+
+
+def _numbers(what: str, x: ArrayLike) -> Array:
+    try:
+        return np.asarray(x, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise ModelError(f"{what} is no array of numbers: {error}") from None
+
+
+def _tell(batch: BatchTrajectory) -> None:
+    """Say what did not end, so that nobody takes NaN for numbers."""
+    runs, failures = len(batch), batch.failures
+    stopped = runs - int(batch.complete.sum()) - len(failures)
+    if stopped:
+        print(
+            f"saltus: stopped; {stopped} of {runs} runs had not ended, the batch holds what was "
+            "done",
+            file=sys.stderr,
+        )
+    if failures:
+        first, message = next(iter(failures.items()))
+        warnings.warn(
+            f"{len(failures)} of {runs} runs failed, see failures; run {first}: {message}",
+            RuntimeWarning,
+            stacklevel=3,
+        )

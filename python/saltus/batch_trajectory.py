@@ -1,0 +1,136 @@
+"""Many recorded motions of one model."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from saltus import _core
+from saltus._core import ImpactLaw, Model, ModelError, StepOptions
+from saltus.trajectory import Array, Trajectory
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BatchTrajectory:
+    """Recorded motions from many starts, made by `simulate_batch`.
+
+    `len(batch)` is the number of runs B; `batch[i]` is one of them as a `Trajectory`, with its
+    impacts and impulses, and iterating gives one after the other. Rows that a run did not reach,
+    because it failed or was stopped, are NaN in the arrays here and absent from `batch[i]`.
+
+    Attributes
+    ----------
+    model : Model
+    options : StepOptions
+    coordinate_names, pair_names : tuple of str
+    t : numpy.ndarray, shape (rows,)
+        [s] the same for all runs.
+    q, v, p : numpy.ndarray, shape (B, rows, n)
+        Coordinates [rad | m], velocities and momenta.
+    kinetic, potential, shadow, total : numpy.ndarray, shape (B, rows)
+        [J] as in `Trajectory`.
+    impacts : numpy.ndarray of int, shape (B,)
+        Number of impacts.
+    rows : numpy.ndarray of int, shape (B,)
+        Rows that were reached.
+    energy_error : numpy.ndarray, shape (B,)
+        Greatest |H(t) - H(0)| over the greatest kinetic energy of each run.
+    complete : numpy.ndarray of bool, shape (B,)
+        False for runs that failed, or were stopped before their end.
+    failures : dict of int to str
+        What the error of each run that failed says, by its index.
+    """
+
+    model: Model
+    options: StepOptions
+    coordinate_names: tuple[str, ...]
+    pair_names: tuple[str, ...]
+    t: Array
+    q: Array
+    v: Array
+    p: Array
+    kinetic: Array
+    potential: Array
+    shadow: Array
+    total: Array
+    impacts: npt.NDArray[np.int64]
+    rows: npt.NDArray[np.int64]
+    energy_error: Array
+    complete: npt.NDArray[np.bool_]
+    failures: dict[int, str]
+    _runs: _core.BatchTrajectory
+
+    @classmethod
+    def from_core(cls, core: _core.BatchTrajectory) -> BatchTrajectory:
+        """Wrap what the compiled part returns; large arrays are not copied."""
+        names = ("t", "q", "v", "p", "kinetic", "potential", "shadow")
+        numbers = ("impacts", "rows", "energy_error", "complete", "failures")
+        arrays = {name: getattr(core, name) for name in (*names, *numbers)}
+        arrays["total"] = core.kinetic + core.potential
+        for name in ("total", "energy_error"):
+            arrays[name].flags.writeable = False
+        return cls(
+            model=core.model,
+            options=core.options,
+            coordinate_names=tuple(core.model.coordinate_names),
+            pair_names=tuple(core.model.pair_names),
+            _runs=core,
+            **arrays,
+        )
+
+    def __len__(self) -> int:
+        return len(self.complete)
+
+    def __getitem__(self, run: int) -> Trajectory:
+        """Return one run; negative numbers count from the end."""
+        index = operator.index(run)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"no run {index}; the batch has {len(self)}")
+        return Trajectory.from_core(self._runs.run(index % len(self)))
+
+    def __iter__(self) -> Iterator[Trajectory]:
+        return (self[run] for run in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<saltus.BatchTrajectory: {self.summary()}>"
+
+    def summary(self) -> str:
+        """Return one line that says how many runs, how long and how they went."""
+        law = ImpactLaw(self.options.law).name
+        stopped = len(self) - int(self.complete.sum()) - len(self.failures)
+        went = [f"{len(self.failures)} failed"] if self.failures else []
+        went += [f"{stopped} stopped"] if stopped else []
+        return (
+            f"{len(self)} runs" + (f" ({', '.join(went)})" if went else "") + ", "
+            f"{self.t[0]:g} to {self.t[-1]:g} s, h = {self.options.h:g} s, {law}, "
+            f"{len(self.t)} rows, {self.q.shape[2]} coordinates, {self.impacts.sum()} impacts"
+        )
+
+    def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:
+        """Return one coordinate of all runs over time.
+
+        Parameters
+        ----------
+        name : str
+            Name of the coordinate.
+        of : {"q", "v", "p"}
+            Its value, its velocity or its momentum.
+
+        Returns
+        -------
+        numpy.ndarray, shape (B, rows)
+
+        Raises
+        ------
+        ModelError
+            On a name that is no coordinate's; lists those there are.
+        """
+        if of not in ("q", "v", "p"):
+            raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
+        rows: Array = getattr(self, of)
+        return rows[:, :, self.model.coordinate(name)]
