@@ -41,9 +41,7 @@ VecX pivots_from_last(MatX M) {
 /// Bound of the terms of S.(Ic S) in one slot.
 double scale_of(const PackedTree& t, const Packed& w, int slot) {
   const double *S = at(w.S_W, slot), *I_h = at(w.I_h, slot);
-  const auto norm = [](const double* x) {
-    return std::hypot(x[0], x[lanes], x[2 * lanes]);
-  };
+  const auto norm = [](const double* x) { return std::hypot(x[0], x[lanes], x[2 * lanes]); };
   const double a = norm(S), l = norm(S + 3 * lanes);
   const double trace = I_h[0] + I_h[3 * lanes] + I_h[5 * lanes];
   return a * a * trace + 2 * a * l * norm(I_h + 6 * lanes) + l * l * *at(t.weight, slot);
@@ -68,8 +66,7 @@ std::vector<FeltInertia> felt_inertias(const Tree& tree, const PackedTree& t) {
   std::vector<FeltInertia> felt(static_cast<std::size_t>(tree.coordinates), {0, 0, 0});
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    felt[drive.coordinate].scale +=
-        drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
+    felt[drive.coordinate].scale += drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
   }
   factorize(tree, t, w, 0, M);
   const VecX dense_pivots = tree.one_to_one ? VecX() : pivots_from_last(M.dense);

@@ -148,10 +148,7 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
 }  // namespace
 
 ArcScratch::ArcScratch(const ModelData& model)
-    : w(model.packed),
-      J(model.tree, model.packed),
-      products(model.packed),
-      kin_end(model.tree) {
+    : w(model.packed), J(model.tree, model.packed), products(model.packed), kin_end(model.tree) {
   const int n = model.tree.coordinates;
   for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv, &L_qv_v, &L_vq_v, &L_qq_v}) {
     each->setZero(n);

@@ -1,4 +1,5 @@
-// Trees that fill the lanes in every way there is, with the plain quantities beside the packed ones.
+// Trees that fill the lanes in every way there is, with the plain quantities beside the packed
+// ones.
 #pragma once
 
 #include "lagrangian/evaluate.hpp"

@@ -1,4 +1,5 @@
-// The kernels against the plain loops of tests/cpp/plain, on trees that fill the lanes in every way.
+// The kernels against the plain loops of tests/cpp/plain, on trees that fill the lanes in every
+// way.
 //
 // Tolerances are of rounding: sums of at most 60 terms, a few operations each, in another order.
 #include <gtest/gtest.h>
@@ -75,8 +76,8 @@ TEST(Packed, ProductsWithTheVelocityAreThoseOfThePlainLoops) {
     multiply_second_partials(e.t.tree, e.plain.kin, e.plain.comp, v_joint, plain);
     PackedProducts products(e.packed);
     multiply_by_rates(e.packed, e.w, products);
-    const double scale = plain.L_vq_x.norm() + plain.L_qv_x.norm() + plain.L_qq_x.norm() +
-                         plain.L_vv_x.norm();
+    const double scale =
+        plain.L_vq_x.norm() + plain.L_qv_x.norm() + plain.L_qq_x.norm() + plain.L_vv_x.norm();
     for (int i = 0; i < e.t.tree.joints(); ++i) {
       const Vec3 each = e.of<3>(products.by_joint, i);
       EXPECT_NEAR(each[0], plain.L_vq_x[i], rounding * scale) << k;

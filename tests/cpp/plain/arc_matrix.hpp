@@ -45,14 +45,14 @@ struct ArcMatrix {
 /// Needs second_pass at the (q, v) in question.
 /// @return false where a pivot vanishes or is not a number: J is singular there. The joint is the
 /// last whose inverse_D is not a finite number; those before it are not eliminated.
-bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp,
-                             double tau, ArcMatrix& J);
+bool factorize(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
+               ArcMatrix& J);
 
 /// x <- J^-1 x, x (n_q).
 void solve(const Tree& tree, ArcMatrix& J, Eigen::Ref<VecX> x);
 
 /// Adds C^T J(tau) C to `out` (n_q, n_q): the dense twin of factorize, for people and for tests.
-void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp,
-                             double tau, MatX& out);
+void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp, double tau,
+               MatX& out);
 
 }  // namespace saltus::plain

@@ -42,16 +42,13 @@ struct Composite {
 };
 
 /// First partials. Needs set_configuration and set_velocity.
-void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
-                              Composite& comp);
+void first_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp);
 
 /// Generators of the second partials. Needs first_pass (once after each).
-void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
-                               Composite& comp);
+void second_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp);
 
 /// What the mass matrix alone needs: Ic of the subtrees and U. Needs set_configuration, no
 /// velocity; factorize with tau = 0 and add_dense with tau = 0 may follow, nothing else.
-void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin,
-                             Composite& comp);
+void mass_pass(const Tree& tree, const MassModel& mass, const Kinematics& kin, Composite& comp);
 
 }  // namespace saltus::plain

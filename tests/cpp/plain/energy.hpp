@@ -8,8 +8,7 @@
 namespace saltus::plain {
 
 /// V = -sum m g.c  [J], with the world's origin at height zero. Needs set_configuration.
-double potential_energy(const Tree& tree, const MassModel& mass,
-                                      const Kinematics& kin);
+double potential_energy(const Tree& tree, const MassModel& mass, const Kinematics& kin);
 
 /// Products with one joint-space vector x (n), all by joint (n).
 struct SecondPartialsTimes {
@@ -30,8 +29,7 @@ struct SecondPartialsTimes {
 };
 
 /// Writes all four products from prefix sums along the branches. Needs second_pass.
-void multiply_second_partials(const Tree& tree, const Kinematics& kin,
-                                            const Composite& comp, const VecRef& x,
-                                            SecondPartialsTimes& out);
+void multiply_second_partials(const Tree& tree, const Kinematics& kin, const Composite& comp,
+                              const VecRef& x, SecondPartialsTimes& out);
 
 }  // namespace saltus::plain

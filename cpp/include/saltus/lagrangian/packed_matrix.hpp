@@ -1,7 +1,8 @@
 // The Newton matrix of an arc, and the mass matrix, in lanes: factored and solved.
 //
 //   J(tau) = L_vv + tau/2 (L_vq - L_vq^T) - tau^2/4 L_qq,   J(0) = M          (theory, section 3)
-//   J_ij = t_i.w_j     J_ji = s_i.u_j                                            for i at or above j
+//   J_ij = t_i.w_j     J_ji = s_i.u_j                                            for i at or above
+//   j
 //
 //   s = [S + tau/2 W; S_w]   w = [U + tau/2 F; G]     t = [S - tau/2 W; -tau^2/4 S_w]
 //   u = [U - tau/2 F; -tau^2/4 G]                      (S_w: the angular rows of S)

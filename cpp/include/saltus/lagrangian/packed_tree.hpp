@@ -1,8 +1,8 @@
 // The tree and its bodies, packed for the kernels: numbers of eight joints side by side.
 //
-// A slot holds one joint. Slot k is lane k % 8 of block k / 8, and a block keeps each of its numbers
-// for all eight lanes next to each other, so that one instruction works on a block. Two kinds of
-// groups fill the lanes:
+// A slot holds one joint. Slot k is lane k % 8 of block k / 8, and a block keeps each of its
+// numbers for all eight lanes next to each other, so that one instruction works on a block. Two
+// kinds of groups fill the lanes:
 //
 //   one tree     its joints in preorder, one a lane: what is done joint by joint runs in lanes, and
 //                recursions along the tree go lane by lane
@@ -55,10 +55,10 @@ struct PackedGroup {
   int first = 0;      ///< a multiple of 8
   int positions = 0;  ///< joints a tree
   int width = 1;
-  int trees = 1;          ///< lanes that hold one
-  bool branched = false;  ///< else the parent of a position is the one before
-  bool sweep = false;     ///< else lu
-  int depth = 0;          ///< joints on the longest path from the root
+  int trees = 1;                    ///< lanes that hold one
+  bool branched = false;            ///< else the parent of a position is the one before
+  bool sweep = false;               ///< else lu
+  int depth = 0;                    ///< joints on the longest path from the root
   std::vector<int> parent;          ///< (positions) -1 for the root
   std::vector<int> level;           ///< (positions) ancestors of each
   std::vector<long> row;            ///< (positions) block where its row begins, see PackedRows

@@ -14,8 +14,8 @@ namespace {
 
 /// lower[j] and upper[j] of the levels in one block.
 template <bool symmetric>
-SALTUS_INLINE void multiply(const double* s_t, const V6& u, const V3& u3, const V6& w,
-                            const V3& w3, double* lower, double* upper) {
+SALTUS_INLINE void multiply(const double* s_t, const V6& u, const V3& u3, const V6& w, const V3& w3,
+                            double* lower, double* upper) {
   SALTUS_LANES
   for (int l = 0; l < lanes; ++l) {
     if constexpr (symmetric) {

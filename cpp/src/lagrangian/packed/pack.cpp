@@ -100,7 +100,7 @@ void set_constants(const Tree& tree, const MassModel& mass, int i, PackedTree& t
   const Mat3& I = body.I_J;
   // a massless body has no inertia, whatever is written for it
   const double has = body.mass == 0 ? 0 : 1;
-  const double numbers[] = {body.mass,       body.c_J.x(),    body.c_J.y(),    body.c_J.z(),
+  const double numbers[] = {body.mass,     body.c_J.x(),  body.c_J.y(),  body.c_J.z(),
                             has * I(0, 0), has * I(0, 1), has * I(0, 2), has * I(1, 1),
                             has * I(1, 2), has * I(2, 2)};
   for (int c = 0; c < 10; ++c) at(t.body, slot)[c * lanes] = numbers[c];
@@ -133,8 +133,7 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
   }
   t.slot.resize(tree.parent.size());
   for (const std::vector<Shape>& equal : sorted) {
-    const PackedGroup g =
-        group_of(equal.front(), static_cast<int>(equal.size()), t.slots, solver);
+    const PackedGroup g = group_of(equal.front(), static_cast<int>(equal.size()), t.slots, solver);
     for (std::size_t lane = 0; lane < equal.size(); ++lane) {
       for (int k = 0; k < g.positions; ++k) {
         t.slot[equal[lane].joints[k]] = g.slot(k) + static_cast<int>(lane);

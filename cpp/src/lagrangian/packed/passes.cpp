@@ -24,8 +24,9 @@ SALTUS_INLINE void set_inertia(const double* body, const double* R, const double
   const V3 c = load3(p, 0) + frame * load3(body, 1), h = m * c;
   const S3 I = rotate(frame, load_symmetric(body, 4));
   const double hx = h.x * c.x, hy = h.y * c.y, hz = h.z * c.z;
-  store(I_h, 0, S3{I.xx + hy + hz, I.xy - h.x * c.y, I.xz - h.x * c.z, I.yy + hx + hz,
-                   I.yz - h.y * c.z, I.zz + hx + hy});
+  store(I_h, 0,
+        S3{I.xx + hy + hz, I.xy - h.x * c.y, I.xz - h.x * c.z, I.yy + hx + hz, I.yz - h.y * c.z,
+           I.zz + hx + hy});
   store(I_h, 6, h);
 }
 
@@ -45,8 +46,8 @@ SALTUS_CLONES void sum_momenta(const PackedTree& t, Packed& w) {
     double* H = w.H[b].x[0];
     SALTUS_LANES
     for (int l = 0; l < lanes; ++l) {
-      store(H + l, 0, momentum(body[l], load3(I_h + l, 6), load_symmetric(I_h + l, 0),
-                               load6(V + l, 0)));
+      store(H + l, 0,
+            momentum(body[l], load3(I_h + l, 6), load_symmetric(I_h + l, 0), load6(V + l, 0)));
     }
   }
   for (const PackedGroup& g : t.groups) {
@@ -138,8 +139,8 @@ SALTUS_CLONES void set_mass_generators(const PackedTree& t, Packed& w) {
     double* out = w.U_F_G[b].x[0];
     SALTUS_LANES
     for (int l = 0; l < lanes; ++l) {
-      store(out + l, 0, momentum(weight[l], load3(I_h + l, 6), load_symmetric(I_h + l, 0),
-                                 load6(S + l, 0)));
+      store(out + l, 0,
+            momentum(weight[l], load3(I_h + l, 6), load_symmetric(I_h + l, 0), load6(S + l, 0)));
     }
   }
 }

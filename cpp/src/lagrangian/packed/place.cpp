@@ -43,13 +43,12 @@ SALTUS_INLINE M3 start(double slide, const double* X, const double* R, double* p
 
 SALTUS_INLINE void chain_one_tree(const PackedTree& t, const PackedGroup& g, Packed& w) {
   const int root = g.first;
-  M3 frame = start(at(t.kind, root)[lanes] * *at(w.s, root), at(t.X, root), at(w.R, root),
-                   at(w.p, root));
+  M3 frame =
+      start(at(t.kind, root)[lanes] * *at(w.s, root), at(t.X, root), at(w.R, root), at(w.p, root));
   for (int k = 1; k < g.positions; ++k) {
     const int i = g.first + k;
     if (g.parent[k] != k - 1) frame = load9(at(w.R, g.first + g.parent[k]), 0);
-    frame =
-        chain(frame, at(t.kind, i)[lanes] * *at(w.s, i), at(t.X, i), at(w.R, i), at(w.p, i));
+    frame = chain(frame, at(t.kind, i)[lanes] * *at(w.s, i), at(t.X, i), at(w.R, i), at(w.p, i));
   }
 }
 

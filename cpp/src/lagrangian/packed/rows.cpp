@@ -12,8 +12,7 @@ struct Row {
 };
 
 SALTUS_INLINE Row row_of(SecondPartials& out, int block) {
-  return {out.L_vv[block].x[0], out.L_qq[block].x[0], out.L_vq[block].x[0],
-          out.L_qv[block].x[0]};
+  return {out.L_vv[block].x[0], out.L_qq[block].x[0], out.L_vq[block].x[0], out.L_qv[block].x[0]};
 }
 
 SALTUS_INLINE void multiply(V6 S, V6 W, V6 U, V6 F, V3 G, const Row& row, int l) {

@@ -20,23 +20,23 @@ constexpr double largest = 1e5;
 
 SALTUS_INLINE double sine_polynomial(double r) {
   const double z = r * r;
-  const double p = -1.66666666666666324348e-01 +
-                   z * (8.33333333332248946124e-03 +
-                        z * (-1.98412698298579493134e-04 +
-                             z * (2.75573137070700676789e-06 +
-                                  z * (-2.50507602534068634195e-08 +
-                                       z * 1.58969099521155010221e-10))));
+  const double p =
+      -1.66666666666666324348e-01 +
+      z * (8.33333333332248946124e-03 +
+           z * (-1.98412698298579493134e-04 +
+                z * (2.75573137070700676789e-06 +
+                     z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10))));
   return r + r * z * p;
 }
 
 SALTUS_INLINE double cosine_polynomial(double r) {
   const double z = r * r;
-  const double p = 4.16666666666666019037e-02 +
-                   z * (-1.38888888888741095749e-03 +
-                        z * (2.48015872894767294178e-05 +
-                             z * (-2.75573143513906633035e-07 +
-                                  z * (2.08757232129817482790e-09 -
-                                       z * 1.13596475577881948265e-11))));
+  const double p =
+      4.16666666666666019037e-02 +
+      z * (-1.38888888888741095749e-03 +
+           z * (2.48015872894767294178e-05 +
+                z * (-2.75573143513906633035e-07 +
+                     z * (2.08757232129817482790e-09 - z * 1.13596475577881948265e-11))));
   const double half = z / 2, w = 1 - half;
   return w + ((1 - w - half) + z * z * p);
 }
@@ -46,8 +46,7 @@ SALTUS_INLINE void turn_lane(double x, double& cosine, double& sine) {
   const double shifted = x * 6.36619772367581382433e-01 + magic;
   const std::uint64_t k = std::bit_cast<std::uint64_t>(shifted);
   const double turns = shifted - magic;
-  const double r = ((x - turns * 1.57079632673412561417e+00) -
-                    turns * 6.07710050630396597660e-11) -
+  const double r = ((x - turns * 1.57079632673412561417e+00) - turns * 6.07710050630396597660e-11) -
                    turns * 2.02226624871116645580e-21;
   const double s = sine_polynomial(r), c = cosine_polynomial(r);
   const double sine_size = k & 1 ? c : s, cosine_size = k & 1 ? s : c;
