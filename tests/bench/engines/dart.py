@@ -1,0 +1,62 @@
+"""DART: World.step, without collision shapes."""
+
+from __future__ import annotations
+
+import time
+
+import dartpy
+import numpy as np
+
+from tests.bench.engines.serve import STEP, serve
+from tests.bench.scenes import Scene
+
+Root = dartpy.utils.DartLoaderRootJointType
+
+
+class Steps:
+    """Each step is a call from Python, which the API has no loop for."""
+
+    def __init__(self, scene: Scene) -> None:
+        loader = dartpy.utils.DartLoader()
+        loader.setOptions(
+            dartpy.utils.DartLoaderOptions(
+                defaultRootJointType=Root.FLOATING if scene.floating else Root.FIXED,
+                # Links without <inertial> get this, and not 1 kg.
+                defaultInertia=dartpy.dynamics.Inertia(1e-12, [0, 0, 0], 1e-12 * np.eye(3)),
+            )
+        )
+        self.skeleton = loader.parseSkeletonString(scene.urdf, dartpy.common.Uri())
+        self.world = dartpy.simulation.World()
+        self.world.setNumSimulationThreads(1)
+        asleep = self.world.getDeactivationOptions()
+        asleep.mEnabled = False  # calm bodies would be left out of the steps
+        self.world.setDeactivationOptions(asleep)
+        self.world.setTimeStep(STEP)
+        self.world.setGravity([0, 0, -9.81])
+        self.world.addSkeleton(self.skeleton)
+        self.angles = [0.0] * 6 if scene.floating else []
+        self.angles += [scene.angle] * (self.skeleton.getNumDofs() - len(self.angles))
+
+    def reset(self) -> None:
+        self.world.reset()
+        self.skeleton.setPositions(self.angles)
+        self.skeleton.setVelocities([0.0] * len(self.angles))
+
+    def advance(self, steps: int) -> None:
+        step = self.world.step
+        for _ in range(steps):
+            step()
+
+
+def call_overhead(calls: int = 100_000) -> float:
+    """Return the time [us] of a call that does nothing."""
+    nothing = dartpy.simulation.World().getTimeStep
+    start = time.thread_time()
+    for _ in range(calls):
+        nothing()
+    return 1e6 * (time.thread_time() - start) / calls
+
+
+if __name__ == "__main__":
+    overhead = f"{call_overhead():.2f} µs of Python's call in each"
+    serve(f"DART {dartpy.__version__}, World.step ({overhead})", {"dart_step": Steps})

@@ -1,0 +1,47 @@
+"""Drake: the discrete step of a MultibodyPlant without a scene graph, hence without contacts."""
+
+from __future__ import annotations
+
+import importlib.metadata
+
+from pydrake.multibody.parsing import Parser
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.systems.analysis import Simulator
+
+from tests.bench.engines.serve import STEP, serve
+from tests.bench.scenes import Scene, root_link
+
+
+class Steps:
+    """All steps of a pass are one call of Simulator.AdvanceTo."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.plant = MultibodyPlant(time_step=STEP)
+        Parser(self.plant).AddModelsFromString(scene.urdf, "urdf")
+        if not scene.floating:
+            base = self.plant.GetFrameByName(root_link(scene.urdf))
+            self.plant.WeldFrames(self.plant.world_frame(), base)
+        # Sampled ports copy results for readers that are not there.
+        self.plant.SetUseSampledOutputPorts(False)
+        self.plant.Finalize()
+        self.start = self.plant.GetDefaultPositions()
+        self.start[7 if scene.floating else 0 :] = scene.angle
+        self.simulator = Simulator(self.plant)
+        self.steps = 0
+
+    def reset(self) -> None:
+        context = self.simulator.get_mutable_context()
+        context.SetTime(0.0)
+        self.plant.SetPositions(context, self.start)
+        self.plant.SetVelocities(context, 0 * self.plant.GetVelocities(context))
+        self.simulator.Initialize()
+        self.steps = 0
+
+    def advance(self, steps: int) -> None:
+        self.steps += steps
+        self.simulator.AdvanceTo((self.steps - 0.5) * STEP)  # between two updates, on neither
+
+
+if __name__ == "__main__":
+    version = importlib.metadata.version("drake")
+    serve(f"Drake {version}, discrete step", {"drake_step": Steps})
