@@ -18,7 +18,7 @@ joints where a base is free, the others have a free-flyer. A ratio below 1 means
 - step: 200 steps of 1 ms after 10, from rest at 0.1 rad (robots: 0); Newton: iterations a step
 - / Euler, / implicit: over mj_step with these integrators; / Drake: over the discrete step of a
   MultibodyPlant; / DART: over World.step
-- / trep: over {trep.SOURCE}
+- / trep: over published figures, {trep.SOURCE}
 - heap: allocations in all the timed steps together"""
 
 RATIOS = {
@@ -113,7 +113,7 @@ def bullets(lines: list[str]) -> str:
 
 
 def ratios(results: dict) -> str:
-    """Return our times and how they compare, model by model; columns without numbers are left out."""
+    """Return our times and how they compare; columns without numbers are left out."""
     cells = [[cell(row, results["peaks"]) for cell in RATIOS.values()] for row in results["rows"]]
     return filled_columns(list(RATIOS), cells)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from tests.bench.clock import Time
 
-SOURCE = "trep: measured with trep 1.0 on another machine; steps of 10 ms"
+SOURCE = "measured with trep 1.0 on another machine; steps of 10 ms"
 
 PARTIALS = {  # [us] all first and second partials of L
     "chain 8": 41,

@@ -17,6 +17,7 @@ class Steps:
     """Each step is a call from Python, which the API has no loop for."""
 
     def __init__(self, scene: Scene) -> None:
+        self.floating = scene.floating
         loader = dartpy.utils.DartLoader()
         loader.setOptions(
             dartpy.utils.DartLoaderOptions(
@@ -34,18 +35,24 @@ class Steps:
         self.world.setTimeStep(STEP)
         self.world.setGravity([0, 0, -9.81])
         self.world.addSkeleton(self.skeleton)
-        self.angles = [0.0] * 6 if scene.floating else []
-        self.angles += [scene.angle] * (self.skeleton.getNumDofs() - len(self.angles))
+        self.start = [0.0] * 6 if scene.floating else []
+        self.start += [scene.angle] * (self.skeleton.getNumDofs() - len(self.start))
 
     def reset(self) -> None:
         self.world.reset()
-        self.skeleton.setPositions(self.angles)
-        self.skeleton.setVelocities([0.0] * len(self.angles))
+        self.skeleton.setPositions(self.start)
+        self.skeleton.setVelocities([0.0] * len(self.start))
 
     def advance(self, steps: int) -> None:
         step = self.world.step
         for _ in range(steps):
             step()
+
+    def angles(self) -> np.ndarray:
+        return self.skeleton.getPositions()[6 if self.floating else 0 :]
+
+
+load = Steps
 
 
 def call_overhead(calls: int = 100_000) -> float:
@@ -59,4 +66,4 @@ def call_overhead(calls: int = 100_000) -> float:
 
 if __name__ == "__main__":
     overhead = f"{call_overhead():.2f} µs of Python's call in each"
-    serve(f"DART {dartpy.__version__}, World.step ({overhead})", {"dart_step": Steps})
+    serve(f"DART {dartpy.__version__}, World.step ({overhead})", {"dart_step": load})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 
+import numpy as np
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.analysis import Simulator
@@ -16,6 +17,7 @@ class Steps:
     """All steps of a pass are one call of Simulator.AdvanceTo."""
 
     def __init__(self, scene: Scene) -> None:
+        self.floating = scene.floating
         self.plant = MultibodyPlant(time_step=STEP)
         Parser(self.plant).AddModelsFromString(scene.urdf, "urdf")
         if not scene.floating:
@@ -25,7 +27,7 @@ class Steps:
         self.plant.SetUseSampledOutputPorts(False)
         self.plant.Finalize()
         self.start = self.plant.GetDefaultPositions()
-        self.start[7 if scene.floating else 0 :] = scene.angle
+        self.start[7 if self.floating else 0 :] = scene.angle
         self.simulator = Simulator(self.plant)
         self.steps = 0
 
@@ -41,7 +43,13 @@ class Steps:
         self.steps += steps
         self.simulator.AdvanceTo((self.steps - 0.5) * STEP)  # between two updates, on neither
 
+    def angles(self) -> np.ndarray:
+        positions = self.plant.GetPositions(self.simulator.get_context())
+        return positions[7 if self.floating else 0 :]
+
+
+load = Steps
 
 if __name__ == "__main__":
     version = importlib.metadata.version("drake")
-    serve(f"Drake {version}, discrete step", {"drake_step": Steps})
+    serve(f"Drake {version}, discrete step", {"drake_step": load})

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import mujoco
+import numpy as np
 
 from tests.bench.engines.serve import STEP, serve
 from tests.bench.scenes import Scene, root_link
+
+EULER, IMPLICIT = mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_IMPLICIT
 
 
 class Steps:
@@ -13,7 +16,7 @@ class Steps:
 
     def __init__(self, scene: Scene, integrator: int) -> None:
         self.scene = scene
-        self.model = load(scene)
+        self.model = load_model(scene)
         self.model.opt.timestep = STEP
         self.model.opt.integrator = integrator
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
@@ -26,8 +29,15 @@ class Steps:
     def advance(self, steps: int) -> None:
         mujoco.mj_step(self.model, self.data, nstep=steps)
 
+    def angles(self) -> np.ndarray:
+        return self.data.qpos[7 if self.scene.floating else 0 :].copy()
 
-def load(scene: Scene):
+
+def load(scene: Scene) -> Steps:
+    return Steps(scene, EULER)
+
+
+def load_model(scene: Scene):
     """Load the scene's URDF; a cradle as MJCF, whose balls may have two hinges in one body."""
     if scene.balls:
         balls = "\n".join(
@@ -50,11 +60,8 @@ def load(scene: Scene):
 
 
 if __name__ == "__main__":
-    euler, implicit = mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_IMPLICIT
-    serve(
-        f"MuJoCo {mujoco.__version__}",
-        {
-            "mujoco_step": lambda scene: Steps(scene, euler),
-            "mujoco_implicit_step": lambda scene: Steps(scene, implicit),
-        },
-    )
+    columns = {
+        "mujoco_step": load,
+        "mujoco_implicit_step": lambda scene: Steps(scene, IMPLICIT),
+    }
+    serve(f"MuJoCo {mujoco.__version__}", columns)

@@ -9,6 +9,8 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
+
 from tests.bench.clock import PASSES, Time, summary
 from tests.bench.scenes import Scene
 
@@ -25,6 +27,9 @@ class Simulation(Protocol):
 
     def advance(self, steps: int) -> None:
         """Make steps of STEP, with as few calls as the engine has for it."""
+
+    def angles(self) -> np.ndarray:
+        """Return the joints' coordinates [rad | m], those of a free base left out."""
 
 
 Load = Callable[[Scene], Simulation]
