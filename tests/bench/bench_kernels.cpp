@@ -130,7 +130,9 @@ void run(double budget, const bench::Job& job) {
   if (n <= largest_dense) {
     std::cout << ", \"lagrangian\": " << time_of(budget, [&] { model.lagrangian(q, v); });
   }
-  const State start = model.state(q, VecX::Zero(n));
+  VecX rates = VecX::Constant(n, job.rate);
+  if (job.floating) rates.head(6).setZero();
+  const State start = model.state(q, rates);
   print_long_step(model, start);
   const StepTime step = time_of_steps(model, start, 1e-3);
   std::cout << ", \"step\": " << step.time << ", \"iterations\": " << step.iterations

@@ -94,7 +94,7 @@ def written(scene: Scene) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "model.urdf"
         file.write_text(scene.urdf)
-        yield f"{'floating:' if scene.floating else ''}{file}@{scene.angle}"
+        yield f"{'floating:' if scene.floating else ''}{file}@{scene.angle},{scene.rate}"
 
 
 def versions(has_pinocchio: bool) -> list[str]:

@@ -18,6 +18,8 @@ ROBOTS = {
 }
 
 
+ROBOTS_RATE = 0.2  # [rad/s] or they would fall freely from rest, and their joints not move
+
 PLACE_HOLDER = 1e-5  # [kg] lighter links have inertias of no body, which MuJoCo refuses
 
 
@@ -28,8 +30,9 @@ class Scene:
     name: str
     kind: str  # chain, cradle, robot
     urdf: str
-    angle: float  # [rad | m] every coordinate at the start; velocities are 0
+    angle: float  # [rad | m] every coordinate at the start
     floating: bool = False
+    rate: float = 0.0  # [rad/s | m/s] every joint's velocity at the start; a free base rests
     balls: int = 0  # of a cradle, else 0
 
 
@@ -55,7 +58,7 @@ def robots() -> tuple[list[Scene], str]:
         return [], "robots: example-robot-data is not installed (pip install 'saltus[robots]')"
     folder = Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots"))
     return [
-        Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating)
+        Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating, ROBOTS_RATE)
         for name, (path, floating) in ROBOTS.items()
     ], ""
 

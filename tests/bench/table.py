@@ -15,7 +15,8 @@ joints where a base is free, the others have a free-flyer. A ratio below 1 means
 - / deriv, / rnea: over Pinocchio's computeRNEADerivatives, and L, L_q, L_v over its rnea
 - of peak: flops of the partials (480 a joint, 54 a pair of joint and ancestor) in their time, over
   what a loop of fused multiply-adds reaches on the same core
-- step: 200 steps of 1 ms after 10, from rest at 0.1 rad (robots: 0); Newton: iterations a step
+- step: 200 steps of 1 ms after 10, from rest at 0.1 rad (robots: at 0 rad, with
+  0.2 rad/s in every joint); Newton: iterations a step
 - / Euler, / implicit: over mj_step with these integrators; / Drake: over the discrete step of a
   MultibodyPlant; / DART: over World.step
 - / trep: over published figures, {trep.SOURCE}
@@ -37,6 +38,9 @@ RATIOS = {
     "/ Drake": lambda row, _: number(ratio(row, "step", "drake_step")),
     "/ DART": lambda row, _: number(ratio(row, "step", "dart_step")),
     "10 ms step / trep": lambda row, _: number(ratio(row, "step_10ms", "trep_step_10ms"), 2),
+    "step's derivatives / ABA": lambda row, _: number(
+        ratio(row, "step_derivatives", "pinocchio_aba_derivatives")
+    ),
     "heap": lambda row, _: number(row.get("allocations")),
 }
 
@@ -47,11 +51,13 @@ TIMES = {  # what the ratios are made of, and more
     "newton": "one Newton iteration",
     "step": "step",
     "step_10ms": "10 ms step",
+    "step_derivatives": "step's derivatives",
     "mujoco_step": "mj_step Euler",
     "mujoco_implicit_step": "mj_step implicit",
     "drake_step": "Drake",
     "dart_step": "DART",
     "pinocchio_derivatives": "computeRNEADerivatives",
+    "pinocchio_aba_derivatives": "computeABADerivatives",
     "pinocchio_rnea": "rnea",
 }
 

@@ -35,13 +35,15 @@ class Steps:
         self.world.setTimeStep(STEP)
         self.world.setGravity([0, 0, -9.81])
         self.world.addSkeleton(self.skeleton)
-        self.start = [0.0] * 6 if scene.floating else []
-        self.start += [scene.angle] * (self.skeleton.getNumDofs() - len(self.start))
+        base = [0.0] * 6 if scene.floating else []
+        joints = self.skeleton.getNumDofs() - len(base)
+        self.start = base + [scene.angle] * joints
+        self.rates = base + [scene.rate] * joints
 
     def reset(self) -> None:
         self.world.reset()
         self.skeleton.setPositions(self.start)
-        self.skeleton.setVelocities([0.0] * len(self.start))
+        self.skeleton.setVelocities(self.rates)
 
     def advance(self, steps: int) -> None:
         step = self.world.step

@@ -28,6 +28,8 @@ class Steps:
         self.plant.Finalize()
         self.start = self.plant.GetDefaultPositions()
         self.start[7 if self.floating else 0 :] = scene.angle
+        self.rates = np.full(self.plant.num_velocities(), scene.rate)
+        self.rates[: 6 if self.floating else 0] = 0
         self.simulator = Simulator(self.plant)
         self.steps = 0
 
@@ -35,7 +37,7 @@ class Steps:
         context = self.simulator.get_mutable_context()
         context.SetTime(0.0)
         self.plant.SetPositions(context, self.start)
-        self.plant.SetVelocities(context, 0 * self.plant.GetVelocities(context))
+        self.plant.SetVelocities(context, self.rates)
         self.simulator.Initialize()
         self.steps = 0
 

@@ -25,6 +25,7 @@ class Steps:
     def reset(self) -> None:
         mujoco.mj_resetData(self.model, self.data)
         self.data.qpos[7 if self.scene.floating else 0 :] = self.scene.angle
+        self.data.qvel[6 if self.scene.floating else 0 :] = self.scene.rate
 
     def advance(self, steps: int) -> None:
         mujoco.mj_step(self.model, self.data, nstep=steps)

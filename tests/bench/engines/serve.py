@@ -23,7 +23,7 @@ class Simulation(Protocol):
     """One scene in one engine."""
 
     def reset(self) -> None:
-        """Go back to the scene's calm start."""
+        """Go back to the scene's start."""
 
     def advance(self, steps: int) -> None:
         """Make steps of STEP, with as few calls as the engine has for it."""
