@@ -30,8 +30,8 @@ left out, and named.
 {ratios}
 
 Where a ratio has no number, the engine was not there, or took so long a step that it was left out,
-or (trep) has published none. Long chains do not converge in steps of 10 ms, by any engine's
-equations: that step is longer than their fastest swing.
+or (trep) has published none. A step of 10 ms has no time where Newton's method did not converge:
+long chains and fast arms swing too fast for it.
 
 How times grow with n, as exponents:
 

@@ -6,7 +6,7 @@ from tests.bench import trep
 from tests.bench.flops import partials_flops
 
 HOW = f"""\
-Times are µs of thread CPU time, the least of 7 passes. saltus and Pinocchio are called in C++,
+Times are µs of thread CPU time, the least of all passes. saltus and Pinocchio are called in C++,
 MuJoCo and Drake by one call for 200 steps, DART by one call a step. Every engine has the same tree,
 from the same URDF, fixed joints folded; contacts, limits, damping, mimic joints off. saltus has six
 joints where a base is free, the others have a free-flyer. A ratio below 1 means saltus is faster.

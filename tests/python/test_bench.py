@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.bench import __main__ as bench
 from tests.bench import flops, page, reduce, scenes, table
 
 import saltus
@@ -78,6 +79,14 @@ def test_the_page_is_made_of_the_numbers(tmp_path):
     assert "| / DART" not in text  # a column without numbers
     assert f"]({file.with_suffix('.png').name})" in text
     assert file.with_suffix(".png").stat().st_size > 1000
+
+
+def test_of_several_rounds_the_least_times_count():
+    def row(least: float, **more: object) -> dict:
+        return {"n": 2, "step": {"min": least, "median": 9.0}, **more}
+
+    merged = bench.least_of([row(2.0), row(1.0, drake_step=TIME), row(3.0)])
+    assert merged == {"n": 2, "step": {"min": 1.0, "median": 9.0}, "drake_step": TIME}
 
 
 def test_the_fraction_of_the_peak_counts_flops():
