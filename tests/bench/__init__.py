@@ -1,1 +1,1 @@
-"""Benchmarks against MuJoCo and Pinocchio: python -m tests.bench."""
+"""Benchmarks beside other engines: python -m tests.bench."""

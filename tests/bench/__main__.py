@@ -1,4 +1,4 @@
-"""python -m tests.bench: one table against MuJoCo and Pinocchio, and its numbers as JSON."""
+"""python -m tests.bench: saltus beside other engines, as one table and as JSON."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import argparse
 import json
 from pathlib import Path
 
-from tests.bench import cradle, peers, scenes, table
-from tests.bench.kernels import Programs
+from tests.bench import cradle, flops, page, peers, scenes, table, trep
+from tests.bench.kernels import Programs, machine, versions
+
+# Pinocchio's headers take half a minute to compile.
+QUICK_PROGRAMS = ("bench_kernels", "bench_impacts", "bench_peaks")
 
 
 def chosen_scenes(quick: bool) -> tuple[list[scenes.Scene], list[str]]:
@@ -19,22 +22,59 @@ def chosen_scenes(quick: bool) -> tuple[list[scenes.Scene], list[str]]:
     return chains + cradles + robots, [absent] if absent else []
 
 
-def measure(quick: bool, seconds: float) -> dict:
-    """Measure everything; the engines take turns model by model, on this thread."""
-    programs = Programs(quick)
-    chosen, notes = chosen_scenes(quick)
-    rows = []
-    for scene in chosen:
-        row = {"model": scene.name, "kind": scene.kind, **programs.saltus(scene, seconds)}
-        row["mujoco_step"] = peers.mujoco_step(scene)
-        row.update(programs.pinocchio(scene, seconds))
-        rows.append(row)
+def measure_row(
+    scene: scenes.Scene, programs: Programs, started: list[peers.Peer], seconds: float
+) -> dict:
+    """Measure every engine on one model."""
+    row = {"model": scene.name, "kind": scene.kind, "pairs": scenes.ancestor_pairs(scene)}
+    row |= programs.saltus(scene, seconds)
+    for peer in started:
+        row |= peer.steps(scene)
+    return row | programs.pinocchio(scene, seconds) | trep.figures(scene.name)
+
+
+def least_of(rounds: list[dict]) -> dict:
+    """Return the first round's row with the least of each time that any round has."""
+    row = dict(rounds[0])
+    for other in rounds[1:]:
+        for name, value in other.items():
+            is_time = isinstance(value, dict)
+            if name not in row or (is_time and value["min"] < row[name]["min"]):
+                row[name] = value
+    return row
+
+
+def measure(quick: bool, seconds: float, rounds: int) -> dict:
+    """Measure everything; the engines take turns model by model.
+
+    Each model gets its turn once a round, minutes apart: what else the machine does for a while
+    slows all passes of a turn, but seldom those of each round.
+    """
+    programs = Programs(*(QUICK_PROGRAMS if quick else ()))
+    started, absent = peers.present()
+    chosen, no_scenes = chosen_scenes(quick)
+    peaks, turns = [], []
+    for _ in range(rounds):
+        peaks.append(programs.peaks(seconds))
+        turns.append([measure_row(scene, programs, started, seconds) for scene in chosen])
+    rows = [least_of(list(turn)) for turn in zip(*turns, strict=True)]
+    for peer in started:
+        peer.close()
+    touching = [scenes.touching_cradle(m) for m in ((3,) if quick else (3, 10, 30))]
+    impacts = [row for scene in touching for row in programs.impacts(scene)]
+    peaks.append(programs.peaks(seconds))
     duration = 1.0 if quick else 60.0
     emblem = [cradle.saltus_run(duration), cradle.mujoco_run(0.02 if quick else duration)]
     return {
+        "machine": machine(),
+        "versions": versions(programs.has_pinocchio) + [peer.version for peer in started],
+        "absent": absent + no_scenes,
+        "errors": list(dict.fromkeys(error for peer in started for error in peer.errors)),
+        "peaks": {name: max(peak[name] for peak in peaks) for name in peaks[0]},
         "rows": rows,
+        "growth": flops.growth(rows),
+        "impacts": impacts,
         "emblem": [run for run in emblem if run is not None],
-        "notes": [*programs.notes, *peers.notes(), *notes],
     }
 
 
@@ -42,16 +82,25 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="tiny models: does it run?")
     parser.add_argument("--seconds", type=float, default=0.2, help="CPU time a number [s]")
+    parser.add_argument("--rounds", type=int, default=2, help="turns of each model")
+    parser.add_argument("--read", type=Path, help="numbers of an earlier run; measures nothing")
     parser.add_argument("--json", type=Path, help="where to write the numbers")
+    parser.add_argument("--page", type=Path, help="where to write the manual's page")
     arguments = parser.parse_args()
-    seconds = 0.002 if arguments.quick else arguments.seconds
-    results = measure(arguments.quick, seconds)
+    if arguments.read:
+        results = json.loads(arguments.read.read_text())
+    elif arguments.quick:
+        results = measure(quick=True, seconds=0.002, rounds=1)
+    else:
+        results = measure(quick=False, seconds=arguments.seconds, rounds=arguments.rounds)
     print(table.markdown(results))
     text = json.dumps(results, indent=1)
     if arguments.json:
         arguments.json.write_text(text)
-    else:
+    elif not arguments.page:
         print(f"\n```json\n{text}\n```")
+    if arguments.page:
+        page.write(results, arguments.page)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <vector>
 
+#include "../cpp/count_allocations.hpp"
 #include "clock.hpp"
 
 namespace {
@@ -73,12 +74,13 @@ struct Newton {
 struct StepTime {
   Time time;
   double iterations = 0, residual = 0;  ///< a step; the worst
+  long allocations = 0;                 ///< of heap memory, in all timed steps together
 };
 
-/// Steps of 1 ms from the same start in every pass, contacts off.
-StepTime time_of_steps(const Model& model, const State& start) {
+/// Steps of length h [s] from the same start in every pass, contacts off.
+StepTime time_of_steps(const Model& model, const State& start, double h) {
   StepOptions options;
-  options.h = 1e-3;
+  options.h = h;
   options.collisions = false;
   Stepper stepper(model, options);
   StepTime out;
@@ -86,17 +88,29 @@ StepTime time_of_steps(const Model& model, const State& start) {
   for (int pass = 0; pass < passes; ++pass) {
     State state = start;
     for (int i = 0; i < steps_before; ++i) stepper.step(state);
+    const long allocated = test::allocations;
     const double begin = cpu_seconds();
     for (int i = 0; i < steps_timed; ++i) {
       stepper.step(state);
       out.iterations += stepper.report().iterations;
       out.residual = std::max(out.residual, stepper.report().residual);
     }
-    seconds.push_back((cpu_seconds() - begin) / steps_timed);
+    const double end = cpu_seconds();
+    out.allocations += test::allocations - allocated;
+    seconds.push_back((end - begin) / steps_timed);
   }
   out.iterations /= passes * steps_timed;
   out.time = bench::summary(seconds);
   return out;
+}
+
+/// The long step that trep's published figures are of; chains that are too long do not converge.
+void print_long_step(const Model& model, const State& start) {
+  try {
+    const StepTime step = time_of_steps(model, start, 1e-2);
+    std::cout << ", \"step_10ms\": " << step.time << ", \"iterations_10ms\": " << step.iterations;
+  } catch (const StepError&) {  // no such number, then
+  }
 }
 
 void run(double budget, const bench::Job& job) {
@@ -116,9 +130,14 @@ void run(double budget, const bench::Job& job) {
   if (n <= largest_dense) {
     std::cout << ", \"lagrangian\": " << time_of(budget, [&] { model.lagrangian(q, v); });
   }
-  const StepTime step = time_of_steps(model, model.state(q, VecX::Zero(n)));
+  VecX rates = VecX::Constant(n, job.rate);
+  if (job.floating) rates.head(6).setZero();
+  const State start = model.state(q, rates);
+  print_long_step(model, start);
+  const StepTime step = time_of_steps(model, start, 1e-3);
   std::cout << ", \"step\": " << step.time << ", \"iterations\": " << step.iterations
-            << ", \"residual\": " << step.residual << "}" << std::endl;
+            << ", \"residual\": " << step.residual << ", \"allocations\": " << step.allocations
+            << "}" << std::endl;
 }
 
 }  // namespace

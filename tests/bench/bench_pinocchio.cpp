@@ -1,6 +1,7 @@
 // Times of Pinocchio's kernels, without Python's calls: bench_pinocchio SECONDS FILE...
 //
 // Arguments, clock and output as in bench_kernels.cpp.
+#include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/joint-configuration.hpp>
 #include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
@@ -32,6 +33,8 @@ void run(double budget, const Job& job) {
             << ", \"rnea\": " << time_of(budget, [&] { pinocchio::rnea(model, data, q, v, a); })
             << ", \"derivatives\": "
             << time_of(budget, [&] { pinocchio::computeRNEADerivatives(model, data, q, v, a); })
+            << ", \"aba_derivatives\": "
+            << time_of(budget, [&] { pinocchio::computeABADerivatives(model, data, q, v, a); })
             << "}" << std::endl;
 }
 

@@ -1,8 +1,9 @@
 // What the benchmark programs share: arguments, the clock, passes.
 //
 // PROGRAM SECONDS FILE... spends SECONDS of CPU time on each number of each model. A FILE is URDF;
-// "floating:" before it gives it a free base, "@0.1" after it sets every coordinate to 0.1. Each
-// model gives one JSON object, on its own line. Times are of this thread's CPU clock, [us] a call.
+// "floating:" before it gives it a free base; "@0.1" after it sets every coordinate to 0.1, and
+// "@0.1,0.2" also every joint's velocity, where there is motion, to 0.2. Each model gives one JSON
+// object, on its own line. Times are of this thread's CPU clock, [us] a call.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +22,7 @@ struct Job {
   std::string file;
   bool floating = false;
   double angle = 0;  ///< [rad | m]
+  double rate = 0;   ///< [rad/s | m/s] of the joints; a free base is at rest
 };
 
 struct Time {
@@ -65,7 +67,11 @@ inline Job job(std::string text) {
     text.erase(0, 9);
   }
   if (const auto at = text.rfind('@'); at != std::string::npos) {
-    out.angle = std::stod(text.substr(at + 1));
+    const std::string numbers = text.substr(at + 1);
+    out.angle = std::stod(numbers);
+    if (const auto comma = numbers.find(','); comma != std::string::npos) {
+      out.rate = std::stod(numbers.substr(comma + 1));
+    }
     text.erase(at);
   }
   out.file = text;
@@ -74,7 +80,7 @@ inline Job job(std::string text) {
 
 inline int main(int argc, char** argv, const std::function<void(double, const Job&)>& run) {
   if (argc < 3) {
-    std::cerr << argv[0] << " SECONDS [floating:]FILE[@ANGLE]...\n";
+    std::cerr << argv[0] << " SECONDS [floating:]FILE[@ANGLE[,RATE]]...\n";
     return 2;
   }
   try {

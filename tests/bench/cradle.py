@@ -5,9 +5,13 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from tests.bench.peers import mujoco
 
 import saltus
+
+try:
+    import mujoco
+except ImportError:
+    mujoco = None
 
 LIFTED = 0.3  # [rad] first ball
 

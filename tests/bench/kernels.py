@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.metadata
 import json
 import os
+import platform
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
-from tests.bench.scenes import Scene
-
 import saltus
+from tests.bench.scenes import Scene
 
 HERE = Path(__file__).parent
 BUILD = HERE.parents[1] / "build" / "bench"
@@ -27,20 +30,21 @@ def tool(name: str) -> str:
 
 
 class Programs:
-    """The programs, compiled when sources or the installed library are newer."""
+    """The programs, compiled when sources or the installed library are newer.
 
-    def __init__(self, quick: bool) -> None:
+    Parameters
+    ----------
+    targets : str
+        Which to compile; all, if none is named.
+    """
+
+    def __init__(self, *targets: str) -> None:
         prefix = ";".join([str(saltus.cmake_dir()), *self._wheels(), sys.prefix])
         ninja = ["-GNinja", f"-DCMAKE_MAKE_PROGRAM={tool('ninja')}"]
         self._call(tool("cmake"), "-S", HERE, "-B", BUILD, *ninja, f"-DCMAKE_PREFIX_PATH={prefix}")
-        # Pinocchio's headers take half a minute to compile
-        only = ["--target", "bench_kernels"] if quick else []
+        only = ["--target", *targets] if targets else []
         self._call(tool("cmake"), "--build", BUILD, *only)
-        self.notes = [
-            f"CPU: {_cpu()}, {os.cpu_count()} logical; µs of thread CPU time, least of 7 passes"
-        ]
         self.has_pinocchio = (BUILD / "bench_pinocchio").exists()
-        self.notes.append(_pinocchio_version(self.has_pinocchio))
 
     @staticmethod
     def _wheels() -> list[str]:
@@ -56,39 +60,82 @@ class Programs:
         return done.stdout
 
     def saltus(self, scene: Scene, seconds: float) -> dict:
-        return self._run("bench_kernels", scene, seconds)
+        (row,) = self._run("bench_kernels", scene, seconds)
+        return row
 
     def pinocchio(self, scene: Scene, seconds: float) -> dict:
         links = scene.urdf.count("<joint ")
         if not self.has_pinocchio or links > LARGEST_PINOCCHIO:
             return {}
-        times = self._run("bench_pinocchio", scene, seconds)
-        return {f"pinocchio_{name}": times[name] for name in ("rnea", "derivatives")}
+        (times,) = self._run("bench_pinocchio", scene, seconds)
+        return {f"pinocchio_{name}": time for name, time in times.items() if name != "n"}
 
-    def _run(self, program: str, scene: Scene, seconds: float) -> dict:
-        with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "model.urdf"
-            file.write_text(scene.urdf)
-            prefix = "floating:" if scene.floating else ""
-            job = f"{prefix}{file}@{scene.angle}"
-            result = json.loads(self._call(BUILD / program, seconds, job))
-        del result["model"]
-        return result
+    def impacts(self, scene: Scene) -> list[dict]:
+        """Return rows of what steps with impacts cost, one a step length."""
+        rows = self._run("bench_impacts", scene, 0)
+        return [{"model": scene.name, **row} for row in rows]
+
+    def peaks(self, seconds: float) -> dict:
+        return json.loads(self._call(BUILD / "bench_peaks", seconds))
+
+    def _run(self, program: str, scene: Scene, seconds: float) -> list[dict]:
+        """Return the objects that a program prints, without the engine's name of the model."""
+        with written(scene) as job:
+            lines = self._call(BUILD / program, seconds, job).splitlines()
+        rows = [json.loads(line) for line in lines]
+        for row in rows:
+            del row["model"]
+        return rows
 
 
-def _pinocchio_version(built: bool) -> str:
-    if not built:
-        return "Pinocchio: absent (pip install 'saltus[bench]'; --quick does not compile it)"
+@contextlib.contextmanager
+def written(scene: Scene) -> Iterator[str]:
+    """Give the scene as an argument of the programs."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "model.urdf"
+        file.write_text(scene.urdf)
+        yield f"{'floating:' if scene.floating else ''}{file}@{scene.angle},{scene.rate}"
+
+
+def versions(has_pinocchio: bool) -> list[str]:
+    """Return the versions of what is measured in C++."""
+    saltus_version = f"saltus {saltus.__version__}, its C++ library, {compiler()}"
+    if not has_pinocchio:
+        how = "pip install pin; --quick does not compile it"
+        return [saltus_version, f"Pinocchio: absent ({how})"]
     try:
-        return f"Pinocchio {importlib.metadata.version('pin')}, its C++ library"
+        pinocchio = f"Pinocchio {importlib.metadata.version('pin')}"
     except importlib.metadata.PackageNotFoundError:
-        return "Pinocchio, the system's C++ library"
+        pinocchio = "Pinocchio of the system"
+    return [saltus_version, f"{pinocchio}, its C++ library"]
 
 
-def _cpu() -> str:
+def compiler() -> str:
+    """Return the compiler of the programs, as CMake names it: GNU 12.2.0."""
+    for file in BUILD.glob("CMakeFiles/*/CMakeCXXCompiler.cmake"):
+        text = file.read_text()
+        found = [
+            re.search(rf'set\(CMAKE_CXX_COMPILER_{key} "([^"]*)"', text)
+            for key in ("ID", "VERSION")
+        ]
+        if all(found):
+            return " ".join(match.group(1) for match in found)
+    return "unknown compiler"
+
+
+def machine() -> dict:
+    """Return the processor, for readers and for who compares numbers."""
+    info = {"cpu": "unknown", "logical": os.cpu_count(), "architecture": platform.machine()}
+    info["system"] = f"{platform.system()}, Python {platform.python_version()}"
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
-        return "unknown"
-    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else "unknown"
+        return info
+    for line in lines:
+        key, _, value = line.partition(":")
+        if key.strip() == "model name":
+            info["cpu"] = value.strip()
+        elif key.strip() == "flags":
+            wanted = ("avx2", "fma", "avx512f")
+            info["vectors"] = " ".join(name for name in wanted if name in value.split())
+    return info

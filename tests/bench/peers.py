@@ -1,75 +1,64 @@
-"""The same trees in MuJoCo."""
+"""The peers' processes, and which of them are here."""
 
 from __future__ import annotations
 
-import time
-import xml.etree.ElementTree as ET
+import dataclasses
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
 
-from tests.bench.clock import PASSES, Time, summary
+from tests.bench.clock import Time
 from tests.bench.scenes import Scene
 
-STEPS_BEFORE, STEPS_TIMED = 10, 200  # as bench_kernels.cpp does
-
-try:
-    import mujoco
-except ImportError:
-    mujoco = None
-
-
-def mujoco_step(scene: Scene) -> Time | None:
-    """Time mj_step: Euler, 1 ms, no contacts, limits or other constraints.
-
-    All steps of a pass are one call (nstep), so Python's calls cost nothing.
-    """
-    if mujoco is None:
-        return None
-    model = mujoco_model(scene)
-    model.opt.timestep = 1e-3
-    model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
-    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    data = mujoco.MjData(model)
-    seconds = []
-    for _ in range(PASSES):
-        mujoco.mj_resetData(model, data)
-        data.qpos[7 if scene.floating else 0 :] = scene.angle
-        mujoco.mj_step(model, data, nstep=STEPS_BEFORE)
-        start = time.thread_time()
-        mujoco.mj_step(model, data, nstep=STEPS_TIMED)
-        seconds.append((time.thread_time() - start) / STEPS_TIMED)
-    return summary(seconds)
+ROOT = Path(__file__).parents[2]
+PEERS = {  # module of tests.bench.engines: what it needs, how to get it
+    "mujoco": ("mujoco", "MuJoCo: absent (pip install mujoco)"),
+    "drake": ("pydrake", "Drake: absent (pip install drake)"),
+    "dart": ("dartpy", "DART: absent (pip install dartpy)"),
+}
 
 
-def mujoco_model(scene: Scene):
-    """Load the scene's URDF; a cradle as MJCF, whose balls may have two hinges in one body."""
-    if scene.balls:
-        balls = "\n".join(
-            f"""<body pos="{0.1 * i} 0 1"><joint axis="0 1 0"/><joint axis="1 0 0"/>
-            <inertial pos="0 0 -1" mass="1" diaginertia="0.001 0.001 0.001"/></body>"""
-            for i in range(scene.balls)
+class Peer:
+    """A process of tests.bench.engines, asked scene by scene so that the engines take turns."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        command = [sys.executable, "-m", f"tests.bench.engines.{name}"]
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen(
+            command, cwd=ROOT, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True
         )
-        return mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{balls}</worldbody></mujoco>")
-    # balanceinertia: some links of robots, alone, have moments that no body can have.
-    compiler = '<mujoco><compiler balanceinertia="true" fusestatic="true"/></mujoco>'
-    text = scene.urdf.replace("</robot>", f"{compiler}</robot>")
-    if scene.floating:
-        base = root_link(scene)
-        joint = (
-            '<link name="world"/><joint name="root" type="floating">'
-            f'<parent link="world"/><child link="{base}"/></joint>'
-        )
-        text = text.replace("</robot>", f"{joint}</robot>")
-    return mujoco.MjModel.from_xml_string(text)
+        self.errors: list[str] = []
+        self.version = self._answer().get("version", f"{name}: did not start")
+
+    def steps(self, scene: Scene) -> dict[str, Time]:
+        """Return the times of the peer's columns; of none that failed, which `errors` tells."""
+        if self.process.poll() is not None:
+            return {}
+        try:
+            self.process.stdin.write(json.dumps(dataclasses.asdict(scene)) + "\n")
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            return {}
+        answer = self._answer()
+        self.errors += answer.get("errors", [f"{self.name}, {scene.name}: process ended"])
+        return answer.get("times", {})
+
+    def _answer(self) -> dict:
+        line = self.process.stdout.readline()
+        return json.loads(line) if line else {}
+
+    def close(self) -> None:
+        self.process.stdin.close()
+        self.process.wait(timeout=60)
 
 
-def root_link(scene: Scene) -> str:
-    robot = ET.fromstring(scene.urdf)
-    children = {joint.find("child").get("link") for joint in robot.iterfind("joint")}
-    (root,) = (e.get("name") for e in robot.iterfind("link") if e.get("name") not in children)
-    return root
-
-
-def notes() -> list[str]:
-    """Return which peers of this file take part, or how to get them."""
-    if mujoco is None:
-        return ["MuJoCo: absent (pip install 'saltus[bench]')"]
-    return [f"MuJoCo {mujoco.__version__}"]
+def present() -> tuple[list[Peer], list[str]]:
+    """Start the peers that are installed; also return how to get the others."""
+    absent = [how for module, how in PEERS.values() if not importlib.util.find_spec(module)]
+    started = [
+        Peer(name) for name, (module, _) in PEERS.items() if importlib.util.find_spec(module)
+    ]
+    return started, absent

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import saltus
+from tests.bench.reduce import without_fixed_joints
 
 ROBOTS = {
     "panda": ("panda_description/urdf/panda.urdf", False),
@@ -16,6 +17,8 @@ ROBOTS = {
     "tiago": ("tiago_description/robots/tiago.urdf", False),
 }
 
+
+ROBOTS_RATE = 0.2  # [rad/s] or they would fall freely from rest, and their joints not move
 
 PLACE_HOLDER = 1e-5  # [kg] lighter links have inertias of no body, which MuJoCo refuses
 
@@ -27,8 +30,9 @@ class Scene:
     name: str
     kind: str  # chain, cradle, robot
     urdf: str
-    angle: float  # [rad | m] every coordinate at the start; velocities are 0
+    angle: float  # [rad | m] every coordinate at the start
     floating: bool = False
+    rate: float = 0.0  # [rad/s | m/s] every joint's velocity at the start; a free base rests
     balls: int = 0  # of a cradle, else 0
 
 
@@ -41,6 +45,11 @@ def cradle(balls: int) -> Scene:
     return Scene(f"cradle {balls}", "cradle", urdf, 0.1, balls=balls)
 
 
+def touching_cradle(balls: int) -> Scene:
+    """Return a cradle with its shapes; its angle is the first ball's."""
+    return Scene(f"cradle {balls}", "touching", saltus.scenes.cradle(balls), 0.3, balls=balls)
+
+
 def robots() -> tuple[list[Scene], str]:
     """Return the robots of example-robot-data, or none and why."""
     try:
@@ -49,15 +58,15 @@ def robots() -> tuple[list[Scene], str]:
         return [], "robots: example-robot-data is not installed (pip install 'saltus[robots]')"
     folder = Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots"))
     return [
-        Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating)
+        Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating, ROBOTS_RATE)
         for name, (path, floating) in ROBOTS.items()
     ], ""
 
 
 def bare(urdf: str) -> str:
-    """Return links, inertias and joints alone.
+    """Return links, inertias and moving joints alone.
 
-    Meshes, limits, damping and mimic joints are what engines treat differently.
+    Meshes, limits, damping, mimic and fixed joints are what engines treat differently.
     """
     robot = ET.fromstring(urdf)
     for element in list(robot):
@@ -68,6 +77,7 @@ def bare(urdf: str) -> str:
                 element.remove(part)
             elif part.tag == "limit":
                 part.attrib = {"lower": "-1e3", "upper": "1e3", "effort": "1e6", "velocity": "1e6"}
+    without_fixed_joints(robot)
     for inertial in robot.iterfind("link/inertial"):
         if 0 < float(inertial.find("mass").get("value")) < PLACE_HOLDER:
             small = {
@@ -80,3 +90,25 @@ def bare(urdf: str) -> str:
             }
             inertial.find("inertia").attrib = small
     return ET.tostring(robot, encoding="unicode")
+
+
+def root_link(urdf: str) -> str:
+    robot = ET.fromstring(urdf)
+    children = {joint.find("child").get("link") for joint in robot.iterfind("joint")}
+    (root,) = (e.get("name") for e in robot.iterfind("link") if e.get("name") not in children)
+    return root
+
+
+def ancestor_pairs(scene: Scene) -> int:
+    """Return how many pairs (joint, itself or one above it) the scene's tree has."""
+    robot = ET.fromstring(scene.urdf)
+    joints = robot.findall("joint")
+    above = {j.find("child").get("link"): j.find("parent").get("link") for j in joints}
+    base = 6 if scene.floating else 0
+    depths = [base]
+    for link in above:
+        depth = base
+        while link in above:
+            link, depth = above[link], depth + 1
+        depths.append(depth)
+    return sum(depths[1:]) + base * (base + 1) // 2

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 
@@ -14,16 +15,21 @@ inline std::atomic<long> allocations{0};
 // them. Where malloc cannot be replaced (another C library, a sanitizer that has its own),
 // operator new is what is left.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-extern "C" void* __libc_malloc(std::size_t size);  // glibc's own, under its second name
+// glibc's own, under their second names; aligned types and vectors of them come from memalign.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
 extern "C" void* malloc(std::size_t size) noexcept {
   ++saltus::test::allocations;
   return __libc_malloc(size);
 }
-// What operator new asks for where a type is aligned wider than malloc gives (blocks of lanes).
-extern "C" void* __libc_memalign(std::size_t alignment, std::size_t size);
 extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
   ++saltus::test::allocations;
   return __libc_memalign(alignment, size);
+}
+extern "C" int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
+  ++saltus::test::allocations;
+  *p = __libc_memalign(alignment, size);
+  return *p == nullptr ? ENOMEM : 0;
 }
 #else
 void* operator new(std::size_t size) {

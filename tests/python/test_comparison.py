@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.conftest import ROOT
 
 import saltus
-from conftest import ROOT
 
 NORMALS = np.diff(np.eye(3), axis=0)  # gradients of x[i + 1] - x[i]
 CAME = np.array([1.0, 0.0, 0.0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from conftest import ROOT, cmake, configure, package_prefix
+from tests.conftest import ROOT, cmake, configure, package_prefix
 
 EXAMPLES = ROOT / "examples"
 CMAKE = f"""

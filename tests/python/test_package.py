@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.conftest import ROOT, cmake, configure, package_prefix
 
 import saltus
-from conftest import ROOT, cmake, configure, package_prefix
 
 CONSUMER = ROOT / "tests" / "consumer"
 

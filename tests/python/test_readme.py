@@ -8,9 +8,9 @@ import subprocess
 import sys
 
 import pytest
+from tests.conftest import ROOT
 
 import saltus
-from conftest import ROOT
 from saltus.__main__ import main
 
 README = ROOT / "README.md"

@@ -18,6 +18,12 @@ TEST(Allocation, CounterCounts) {
   const long before = allocations;
   const std::vector<int> some(10);
   EXPECT_GT(allocations, before);
+  const long here = allocations;
+  struct alignas(64) Lanes {
+    double x[8];
+  };
+  const std::vector<Lanes> aligned(2);
+  EXPECT_GT(allocations, here);
 }
 
 TEST(Allocation, NoneInAStep) {

@@ -1,0 +1,80 @@
+"""The manual's page on speed, from the benchmarks' results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.bench import picture, table
+
+PAGE = """\
+# Speed
+
+What saltus costs, beside engines that solve the same equations of motion. The numbers on this page
+come from one run on one machine; the page is written by the program that measures them. To measure
+again, in a checkout:
+
+    sh tests/bench/run.sh                                # the tables below, for this machine
+    sh tests/bench/run.sh --page python/docs/speed.md    # this page and its picture
+
+The first run downloads the other engines and compiles the programs. Engines that are not there are
+left out, and named.
+
+## What was measured
+
+{notes}
+{picture}
+## Partials and steps
+
+{how}
+
+{ratios}
+
+Where a ratio has no number, the engine was not there, or took so long a step that it was left out,
+or (trep) has published none. A step of 10 ms has no time where Newton's method did not converge:
+long chains and fast arms swing too fast for it.
+
+How times grow with n, as exponents:
+
+{growth}
+
+## Impacts
+
+A cradle of touching balls, the first let go at 0.3 rad, for 5 s; medians [µs] of the steps with an
+impact and of those without. All contacts of an impact are one cascade of impulses, and the step is
+made of an arc before it and one after it.
+
+{impacts}
+
+The same cradle of three for a minute, beside an engine whose contacts are springs. An exact cradle
+has an energy error of 0, and its middle ball rests.
+
+{emblem}
+
+## All times
+
+[µs]; what the ratios are made of.
+
+{times}
+"""
+
+
+def markdown(results: dict, image: str | None) -> str:
+    """Return the page; `image` is the name of its picture."""
+    shown = f"\n![Time of a step against the number of coordinates]({image})\n" if image else ""
+    return PAGE.format(
+        notes=table.bullets(table.notes(results)),
+        picture=shown,
+        how=table.HOW,
+        ratios=table.ratios(results),
+        growth=table.growth(results["growth"]) or "(not measured)",
+        impacts=table.impacts(results["impacts"]),
+        emblem=table.emblem(results["emblem"]),
+        times=table.times(results["rows"]),
+    )
+
+
+def write(results: dict, file: Path) -> None:
+    """Write the page to `file` and its picture beside it, if there is matplotlib."""
+    image = file.with_suffix(".png")
+    drawn = picture.write(results["rows"], image)
+    file.write_text(markdown(results, image.name if drawn else None))
