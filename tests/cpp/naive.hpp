@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "saltus/lagrangian/mass_model.hpp"
+#include "saltus/tree/kinematics.hpp"
 
 namespace saltus::test {
 

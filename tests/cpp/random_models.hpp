@@ -5,6 +5,7 @@
 #include <random>
 
 #include "saltus/lagrangian/mass_model.hpp"
+#include "saltus/tree/kinematics.hpp"
 
 namespace saltus::test {
 

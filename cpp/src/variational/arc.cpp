@@ -39,16 +39,11 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   evaluate(model, a, v, s);
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) s.r += c.lambda * c.n;
+  if (!s.r.allFinite()) return std::numeric_limits<double>::infinity();
+  if (s.r.size() == 0) return 0;
   // where a coordinate feels no force at all, 0 / tiny is 0
   constexpr double tiny = std::numeric_limits<double>::min();
-  double size = 0;
-  bool finite = true;
-  for (int i = 0; i < s.r.size(); ++i) {
-    const double each = std::abs(s.r[i]) / (s.scale[i] + std::abs(a.p[i]) + tiny);
-    finite = finite && std::isfinite(s.r[i]);
-    size = each > size ? each : size;
-  }
-  return finite ? size : std::numeric_limits<double>::infinity();
+  return (s.r.array().abs() / (s.scale.array() + a.p.array().abs() + tiny)).maxCoeff();
 }
 
 double discrete_energy(const ModelData& model, const VecX& v, const ArcScratch& s) {
@@ -175,7 +170,7 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
   arc.q_end = a.q + a.tau * arc.v;
   arc.p_end = a.p + a.tau * s.L_q;
   for (const ArcConstraint& c : a.constraints) arc.p_end += c.lambda * c.n;
-  arc.energy = discrete_energy(model, arc.v, s);
+  if (options.law == ImpactLaw::discrete_energy) arc.energy = discrete_energy(model, arc.v, s);
   return converged;
 }
 

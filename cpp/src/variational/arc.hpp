@@ -46,7 +46,7 @@ struct Arc {
   double tau = 0;
   VecX v;  ///< guess in, solution out
   VecX q_end, p_end;
-  double energy = 0;    ///< [J] E_d
+  double energy = 0;    ///< [J] E_d, where the law asks for it
   double residual = 0;  ///< scaled by the size of the terms it is a difference of
   int iterations = 0;
 };

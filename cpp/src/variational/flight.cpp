@@ -138,8 +138,9 @@ bool launch(const ModelData& model, const StepOptions& options, double left, Nod
   if (!try_launch(node, f)) return false;
   f.start_v = f.arc.v;
   if (solve_flight_arc(model, options, left, node, f)) return true;
-  --f.active;  // no root after all: back to the nodal arc
+  --f.active;  // no root after all: back to the nodal arc, which is its own guess
   f.arc.v = f.start_v;
+  solve_flight_arc(model, options, left, node, f);
   return false;
 }
 
@@ -167,10 +168,14 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   if (left > 0 && !start_constraints(node, f)) return FlightOutcome::too_many_contacts;
   if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
   double tau = left;
+  bool solved = true;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
   const int most_turns = 10 + 4 * static_cast<int>(model.pairs.size());
   for (int turn = 0; turn < most_turns; ++turn) {
-    if (!solve_flight_arc(model, options, tau, node, f)) return FlightOutcome::not_converged;
+    if (!solved && !solve_flight_arc(model, options, tau, node, f)) {
+      return FlightOutcome::not_converged;
+    }
+    solved = false;
     if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
     const Holds holds = update_holds(model, node, f);
     if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
@@ -186,6 +191,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         // from the origin the chord tells gaps apart no better than their rounding).
         if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
         tau = f.arc.tau;
+        solved = true;
         break;
       case ImpactTime::missed:
         f.passed[hit.pair] = 1;

@@ -2,9 +2,10 @@
 //
 //   x = k pi/2 + r, |r| <= pi/4; sin and cos of r by polynomials; k tells which of them, and signs
 //
-// pi/2 in three parts of 33 bits, whose products with k < 2^20 are exact (Cody & Waite), and the
-// minimax polynomials of fdlibm's k_sin.c and k_cos.c (Sun Microsystems, 1993): errors of about an
-// ulp. No library that we may ask for has this in double precision for every machine.
+// pi/2 in parts of 33, 33 and 53 bits: products of the first two with k < 2^20 are exact (Cody &
+// Waite). The minimax polynomials are those of fdlibm (k_sin.c, k_cos.c; Sun Microsystems, 1993).
+// Errors are of about an ulp. No library that we may ask for has this in double precision for every
+// machine.
 #include "lagrangian/packed/turn.hpp"
 
 #include <bit>
@@ -47,7 +48,7 @@ SALTUS_INLINE void turn_lane(double x, double& cosine, double& sine) {
   const std::uint64_t k = std::bit_cast<std::uint64_t>(shifted);
   const double turns = shifted - magic;
   const double r = ((x - turns * 1.57079632673412561417e+00) - turns * 6.07710050630396597660e-11) -
-                   turns * 2.02226624871116645580e-21;
+                   turns * 2.02226624879595063154e-21;
   const double s = sine_polynomial(r), c = cosine_polynomial(r);
   const double sine_size = k & 1 ? c : s, cosine_size = k & 1 ? s : c;
   sine = k & 2 ? -sine_size : sine_size;
