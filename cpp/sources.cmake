@@ -41,6 +41,8 @@ set(SALTUS_SOURCES
   # variational
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
+  cpp/src/variational/closing_arc.cpp
+  cpp/src/variational/contact_vector.cpp
   cpp/src/variational/flight.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/node.cpp

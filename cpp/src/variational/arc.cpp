@@ -31,9 +31,10 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   }
 }
 
-/// Writes the negative residual r of the momentum; returns its scaled size. The residual is a
-/// difference of rounded sums, and `scale` is the size of their terms, per coordinate, so that
-/// `converged` means the same for a spinning grain as for a sliding block.
+}  // namespace
+
+// The residual is a difference of rounded sums, and `scale` is the size of their terms, per
+// coordinate, so that `converged` means the same for a spinning grain as for a sliding block.
 double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
                          ArcScratch& s) {
   evaluate(model, a, v, s);
@@ -46,6 +47,8 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   return (s.r.array().abs() / (s.scale.array() + a.p.array().abs() + tiny)).maxCoeff();
 }
 
+namespace {
+
 double discrete_energy(const ModelData& model, const VecX& v, const ArcScratch& s) {
   return 0.5 * v.dot(s.L_v) + potential_energy(model.packed, s.w);
 }
@@ -56,7 +59,7 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
   c.row.setZero();
   if (c.kind == ArcConstraint::Kind::hold) {
     const Pair& pair = model.pairs[c.pair];
-    const Gap g = pair_gap(model.tree, s.kin_end, model.shapes, pair);
+    const Gap g = pair_gap_at_end(model, pair, s);
     add_gap_gradient(model.tree, s.kin_end, pair, g, c.row);
     return (g.phi - c.target) / a.tau;
   }
@@ -72,7 +75,7 @@ void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v,
   const int m = static_cast<int>(a.constraints.size());
   if (m == 0) return;
   s.x = a.q + a.tau * v;
-  set_configuration(model.tree, s.x, s.kin_end);
+  place_end(model, s.x, s);
   SmallMat S(m, m);
   SmallVec rhs(m);
   for (int i = 0; i < m; ++i) {
@@ -97,11 +100,11 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
   double size = 0;
   if (a.constraints.empty()) return size;
   s.x = a.q + a.tau * v;
-  set_configuration(model.tree, s.x, s.kin_end);
+  place_end(model, s.x, s);
   for (const ArcConstraint& c : a.constraints) {
     if (c.kind == ArcConstraint::Kind::hold) {
       const Pair& pair = model.pairs[c.pair];
-      const double phi = pair_gap(model.tree, s.kin_end, model.shapes, pair).phi;
+      const double phi = pair_gap_at_end(model, pair, s).phi;
       // 1e-12: a hundredth of pair.touch is closed
       size = std::max(size, std::abs(phi - c.target) / pair.touch * 1e-12);
     } else {
@@ -143,46 +146,80 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
 }  // namespace
 
 ArcScratch::ArcScratch(const ModelData& model)
-    : w(model.packed), J(model.tree, model.packed), products(model.packed), kin_end(model.tree) {
+    : w(model.packed),
+      J(model.tree, model.packed),
+      products(model.packed),
+      w_end(model.packed),
+      kin_end(model.tree) {
   const int n = model.tree.coordinates;
   for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv, &L_qv_v, &L_vq_v, &L_qq_v}) {
     each->setZero(n);
   }
 }
 
-bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
-               ArcScratch& s) {
+void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s) {
+  set_coordinates(model.tree, model.packed, q_end, s.w_end);
+  place(model.packed, s.w_end);
+}
+
+Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
+  for (const ChainJoint& k : pair.chain) {
+    copy_pose(model.tree, model.packed, s.w_end, k.joint, s.kin_end);
+  }
+  for (const int shape : {pair.a, pair.b}) {  // one may hang on the joint where the chain turns
+    const int joint = model.shapes[shape].joint;
+    if (joint >= 0) copy_pose(model.tree, model.packed, s.w_end, joint, s.kin_end);
+  }
+  return pair_gap(model.tree, s.kin_end, model.shapes, pair);
+}
+
+bool is_converged(double residual, double before) {
   // 32 eps: sums of a few terms each round by eps; what is left at convergence is about 2 eps
   constexpr double floor = 32 * std::numeric_limits<double>::epsilon();
   // above this a stalled iteration is a failure, below it rounding (long chains sum many terms)
   constexpr double rounding = 1e-11;
+  return residual <= floor || (residual <= rounding && residual > before / 4);
+}
+
+bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
+               ArcScratch& s) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   arc.tau = a.tau;
   arc.iterations = 0;
   arc.residual = residual(model, a, arc.v, s);
-  bool converged = arc.residual <= floor;
+  bool converged = is_converged(arc.residual, infinity);
   while (!converged && arc.iterations < options.max_iterations) {
     const double before = arc.residual;
     arc.residual = newton_step(model, a, before, arc, s);
     ++arc.iterations;
     if (!std::isfinite(arc.residual)) return false;
-    converged = arc.residual <= floor || (arc.residual <= rounding && arc.residual > before / 4);
+    converged = is_converged(arc.residual, before);
   }
+  finish_arc(model, a, options, arc, s);
+  return converged;
+}
+
+void finish_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
+                ArcScratch& s) {
   arc.q_end = a.q + a.tau * arc.v;
   arc.p_end = a.p + a.tau * s.L_q;
   for (const ArcConstraint& c : a.constraints) arc.p_end += c.lambda * c.n;
   if (options.law == ImpactLaw::discrete_energy) arc.energy = discrete_energy(model, arc.v, s);
-  return converged;
 }
 
-void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
-  second_pass(model.packed, s.w);
-  rate.setZero();
-  if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
+void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate) {
   multiply_by_rates(model.packed, s.w, s.products);
   gather(model.tree, model.packed, s.products.by_joint, 0, s.L_vq_v);
   gather(model.tree, model.packed, s.products.by_joint, 2, s.L_qq_v);
-  rate = -(s.L_vq_v - s.L_q) / 2 + arc.tau / 4 * s.L_qq_v;
+  rate = -(s.L_vq_v - s.L_q) / 2 + tau / 4 * s.L_qq_v;
   solve(model.tree, model.packed, s.J, rate);
+}
+
+void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
+  rate.setZero();
+  second_pass(model.packed, s.w);
+  if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
+  set_arc_rate(model, arc.tau, s, rate);
 }
 
 }  // namespace saltus

@@ -57,7 +57,8 @@ struct ArcScratch {
   Packed w;
   PackedMatrix J;
   PackedProducts products;
-  Kinematics kin_end;
+  Packed w_end;        ///< written by place_end
+  Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
   VecX x, L_v, L_q, r, scale, dv;
   VecX L_qv_v, L_vq_v, L_qq_v;
 };
@@ -67,8 +68,32 @@ struct ArcScratch {
 bool solve_arc(const ModelData& model, const ArcProblem& problem, const StepOptions& options,
                Arc& arc, ArcScratch& s);
 
-/// dv/dtau of a solved arc, constraints left aside: v' = -J^-1 dp_start/dtau with
-/// dp_start/dtau = (L_vq v - L_q)/2 - tau/4 L_qq v. Result in `rate` (n_q).
+/// Poses at q_end in s.w_end.
+void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s);
+
+/// Gap of a pair there; add_gap_gradient with s.kin_end may follow. Needs place_end.
+Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
+
+/// What solve_arc is made of, for closing_arc.cpp.
+///
+/// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
+/// scaled size, infinity where it is not a number.
+double momentum_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
+                         ArcScratch& s);
+
+/// True where a residual is rounding: at the floor, or small and no longer falling.
+bool is_converged(double residual, double before);
+
+/// Writes arc.q_end, p_end and energy from the last evaluation.
+void finish_arc(const ModelData& model, const ArcProblem& problem, const StepOptions& options,
+                Arc& arc, ArcScratch& s);
+
+/// dv/dtau of an arc, constraints left aside: v' = -J^-1 dp_start/dtau with
+/// dp_start/dtau = (L_vq v - L_q)/2 - tau/4 L_qq v. Needs the factors of J in s. Result in `rate`
+/// (n_q).
+void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate);
+
+/// The same, factors and all, for an arc just solved.
 void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate);
 
 }  // namespace saltus

@@ -7,21 +7,46 @@
 namespace saltus {
 namespace {
 
-/// The contact to reflect on next, -1 when none approaches.
-int next_contact(const Eigen::Ref<const MatX>& G, const VecRef& u, const VecRef& rest,
-                 ImpactOrder order) {
-  int best = -1;
-  double fastest = 0;
-  for (int i = 0; i < u.size(); ++i) {
-    if (!(u[i] < -rest[i])) continue;
-    if (order == ImpactOrder::index) return i;
-    const double speed = u[i] / std::sqrt(G(i, i));
-    if (speed < fastest) {
-      fastest = speed;
-      best = i;
+/// What a contact plays with: the least key is next, ties go to the lowest index.
+double key_of(double u, double rest, double G_ii, ImpactOrder order) {
+  if (!(u < -rest)) return 0;
+  return order == ImpactOrder::index ? -1 : u / std::sqrt(G_ii);
+}
+
+void play(CascadeScratch& s, int match) {
+  const int a = s.winner[2 * match], b = s.winner[2 * match + 1];
+  s.winner[match] = b < 0 || (a >= 0 && s.key[a] <= s.key[b]) ? a : b;
+}
+
+/// All matches of m contacts; leaves beyond them are empty (-1).
+void start_tournament(int m, CascadeScratch& s) {
+  int leaves = 1;
+  while (leaves < m) leaves *= 2;
+  s.winner.assign(static_cast<std::size_t>(2 * leaves), -1);
+  for (int i = 0; i < m; ++i) s.winner[leaves + i] = i;
+  for (int match = leaves - 1; match > 0; --match) play(s, match);
+}
+
+/// The matches of one contact, up to the last.
+void replay(int i, CascadeScratch& s) {
+  for (int match = (static_cast<int>(s.winner.size()) / 2 + i) / 2; match > 0; match /= 2) {
+    play(s, match);
+  }
+}
+
+ContactMatrix without_zeros(const Eigen::Ref<const MatX>& G) {
+  ContactMatrix out;
+  for (int i = 0; i < G.rows(); ++i) {
+    out.start.push_back(static_cast<int>(out.column.size()));
+    out.diagonal.push_back(G(i, i));
+    for (int j = 0; j < G.cols(); ++j) {
+      if (G(i, j) == 0) continue;
+      out.column.push_back(j);
+      out.value.push_back(G(i, j));
     }
   }
-  return best;
+  out.start.push_back(static_cast<int>(out.column.size()));
+  return out;
 }
 
 void check_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
@@ -55,18 +80,36 @@ void check_rows(const Eigen::Ref<const MatX>& N) {
 
 }  // namespace
 
-bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
-             const CascadeOptions& options, std::vector<Impulse>& impulses) {
-  for (int count = 0; count < options.max_impulses; ++count) {
-    const int i = next_contact(G, u, rest, options.order);
-    if (i < 0) return true;
-    const double lambda = -(1 + options.restitution) * u[i] / G(i, i);
+bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
+             const CascadeOptions& options, CascadeScratch& scratch,
+             std::vector<Impulse>& impulses) {
+  const int m = G.size();
+  if (m == 0) return true;
+  scratch.key.resize(static_cast<std::size_t>(m));
+  for (int i = 0; i < m; ++i) {
+    scratch.key[i] = key_of(u[i], rest[i], G.diagonal[i], options.order);
+  }
+  start_tournament(m, scratch);
+  for (int count = 0;; ++count) {
+    const int i = scratch.winner[1];
+    if (!(scratch.key[i] < 0)) return true;
+    if (count == options.max_impulses) return false;
+    const double lambda = -(1 + options.restitution) * u[i] / G.diagonal[i];
     const double u_after = -options.restitution * u[i];  // exact, without the rounding of G lambda
-    u += G.col(i) * lambda;
-    u[i] = u_after;
+    for (int k = G.start[i]; k < G.start[i + 1]; ++k) {
+      const int j = G.column[k];
+      u[j] = j == i ? u_after : u[j] + G.value[k] * lambda;
+      scratch.key[j] = key_of(u[j], rest[j], G.diagonal[j], options.order);
+      replay(j, scratch);
+    }
     impulses.push_back({i, lambda});
   }
-  return next_contact(G, u, rest, options.order) < 0;
+}
+
+bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
+             const CascadeOptions& options, std::vector<Impulse>& impulses) {
+  CascadeScratch scratch;
+  return cascade(without_zeros(G), u, rest, options, scratch, impulses);
 }
 
 ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,

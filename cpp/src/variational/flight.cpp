@@ -20,7 +20,9 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int pair, do
 /// Holds a resting pair closed from now on; its gap is brought to exactly 0.
 bool hold(int pair, Node& node, Flight& f) {
   if (f.active == most_constraints) return false;
-  next_constraint(f, ArcConstraint::Kind::hold, pair, 0).n = node.contacts[node.contact_of[pair]].n;
+  ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
+  c.n.setZero();
+  add(node.trees, 1, node.contacts[node.contact_of[pair]].n, c.n);
   node.held[pair] = 1;
   return true;
 }
@@ -67,9 +69,9 @@ Holds update_holds(const ModelData& model, Node& node, Flight& f) {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
-    if (!placed) set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
+    if (!placed) place_end(model, f.arc.q_end, f.scratch);
     placed = true;
-    const Gap g = pair_gap(model.tree, f.scratch.kin_end, model.shapes, model.pairs[c.pair]);
+    const Gap g = pair_gap_at_end(model, model.pairs[c.pair], f.scratch);
     if (g.phi >= floor_of(model, node, c.pair)) continue;
     if (!hold(c.pair, node, f)) return Holds::too_many;
     changed = true;
@@ -108,7 +110,7 @@ FirstHit first_hit(const ModelData& model, Node& node, Flight& f) {
 /// it hops, and is back before the arc ends.
 bool is_hop(const Node& node, int pair) {
   const int contact = node.contact_of[pair];
-  return contact >= 0 && node.contacts[contact].n.dot(node.dq) <= 0;
+  return contact >= 0 && dot(node.trees, node.contacts[contact].n, node.dq) <= 0;
 }
 
 /// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
@@ -120,6 +122,12 @@ bool solve_first_arc(const ModelData& model, const StepOptions& options, double 
     for (int i = 0; i < f.active; ++i) f.constraints[i].lambda = 0;
   }
   f.arc.v = node.v;
+  if (f.has_rate) {  // of the arc that ended here at an impact: its acceleration goes on, nearly
+    f.arc.v += left * f.rate;
+    if (solve_flight_arc(model, options, left, node, f)) return true;
+    for (int i = 0; i < f.active; ++i) f.constraints[i].lambda = 0;
+    f.arc.v = node.v;
+  }
   return solve_flight_arc(model, options, left, node, f);
 }
 
@@ -154,7 +162,7 @@ Flight::Flight(const ModelData& model)
       passed(model.pairs.size(), 0),
       flips(model.pairs.size(), 0) {
   const int n_q = model.tree.coordinates;
-  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &n}) x->setZero(n_q);
+  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (ArcConstraint& c : constraints) {
     for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n_q);
   }
@@ -169,6 +177,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
   double tau = left;
   bool solved = true;
+  f.has_rate = false;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
   const int most_turns = 10 + 4 * static_cast<int>(model.pairs.size());
   for (int turn = 0; turn < most_turns; ++turn) {
@@ -191,7 +200,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         // from the origin the chord tells gaps apart no better than their rounding).
         if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
         tau = f.arc.tau;
-        solved = true;
+        solved = f.has_rate = true;
         break;
       case ImpactTime::missed:
         f.passed[hit.pair] = 1;

@@ -23,15 +23,16 @@ struct Flight {
 
   Arc arc;  ///< the result
   GuessHistory history;
-  int closing = -1;    ///< pair whose impact was sought last
-  int iterations = 0;  ///< Newton iterations of all arcs tried
+  int closing = -1;       ///< pair whose impact was sought last
+  int iterations = 0;     ///< Newton iterations of all arcs tried
+  bool has_rate = false;  ///< `rate` is v' of the arc, which ends where a gap closes
 
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
   std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
   int active = 0;
-  VecX rate, start_v, n;
+  VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
 };

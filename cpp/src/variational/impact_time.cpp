@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "variational/closing_arc.hpp"
+
 namespace saltus {
 namespace {
 
@@ -14,15 +16,15 @@ struct GapAtEnd {
 };
 
 double phi_at_end(const ModelData& model, int pair, Flight& f) {
-  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
-  return pair_gap(model.tree, f.scratch.kin_end, model.shapes, model.pairs[pair]).phi;
+  place_end(model, f.arc.q_end, f.scratch);
+  return pair_gap_at_end(model, model.pairs[pair], f.scratch).phi;
 }
 
 /// Also writes flight.rate = v'(tau), the next guess's slope.
 GapAtEnd gap_at_end(const ModelData& model, int index, Flight& f) {
   const Pair& pair = model.pairs[index];
-  set_configuration(model.tree, f.arc.q_end, f.scratch.kin_end);
-  const Gap g = pair_gap(model.tree, f.scratch.kin_end, model.shapes, pair);
+  place_end(model, f.arc.q_end, f.scratch);
+  const Gap g = pair_gap_at_end(model, pair, f.scratch);
   f.n.setZero();
   add_gap_gradient(model.tree, f.scratch.kin_end, pair, g, f.n);
   arc_rate(model, f.arc, f.scratch, f.rate);
@@ -42,8 +44,22 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
   return (b.lo + b.hi) / 2;
 }
 
+/// Time and velocity at once; false leaves the flight's guess as it was.
+bool refine_at_once(const ModelData& model, const StepOptions& options, int pair, double tau,
+                    double longest, const Node& node, Flight& f) {
+  if (f.active > 0) return false;
+  f.before_v = f.arc.v;
+  f.arc.tau = tau;
+  const ClosingGap gap{pair, longest, f.n, f.rate};
+  const bool closed = solve_closing_arc(model, node.q, node.p, options, gap, f.arc, f.scratch);
+  f.iterations += f.arc.iterations;
+  if (!closed) f.arc.v = f.before_v;
+  return closed;
+}
+
 ImpactTime refine(const ModelData& model, const StepOptions& options, int pair, double tau,
                   Bracket b, const Node& node, Flight& f) {
+  if (refine_at_once(model, options, pair, tau, b.hi, node, f)) return ImpactTime::found;
   const double touch = model.pairs[pair].touch;
   const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();

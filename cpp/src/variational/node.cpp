@@ -20,17 +20,20 @@ bool set_velocity_at_node(const ModelData& model, Node& node) {
 /// As many as can touch in a plain scene; a pool that is too small grows once.
 constexpr std::size_t contacts_reserved = 64;
 constexpr std::size_t impulses_reserved = 1024;
+/// Of the contacts that one tree takes part in.
+constexpr std::size_t most_on_a_tree = 64;
 
-Contact fresh_contact(Eigen::Index n_q) {
+Contact fresh_contact(const TreeCoordinates& trees) {
   Contact fresh;
-  fresh.n.setZero(n_q);
-  fresh.column.setZero(n_q);
+  for (ContactVector* each : {&fresh.n, &fresh.column}) {
+    each->value.reserve(2 * static_cast<std::size_t>(trees.most));
+  }
   return fresh;
 }
 
 Contact& next_in_pool(Node& node) {
   if (node.touching == static_cast<int>(node.contacts.size())) {
-    node.contacts.push_back(fresh_contact(node.q.size()));
+    node.contacts.push_back(fresh_contact(node.trees));
   }
   return node.contacts[node.touching];
 }
@@ -41,8 +44,8 @@ Contact::Motion motion_of(double u, double epsilon_u) {
 }
 
 void classify(const Node& node, double speed, double relative, Contact& c) {
-  c.u = c.n.dot(node.v);
-  c.epsilon_u = relative * (speed + c.n.cwiseAbs().dot(node.v.cwiseAbs()));
+  c.u = dot(node.trees, c.n, node.v);
+  c.epsilon_u = relative * (speed + dot_sizes(node.trees, c.n, node.v));
   c.motion = motion_of(c.u, c.epsilon_u);
 }
 
@@ -66,8 +69,9 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   const double soon = options.simultaneous * options.h;
   if (g.phi > pair.touch + 100 * soon * speed) return;
   Contact& c = next_in_pool(node);
-  c.n.setZero();
-  add_gap_gradient(model.tree, node.kin, pair, g, c.n);
+  add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
+  shape_row(model, node.trees, pair, c.n);
+  take_from(node.trees, node.dense, c.n);
   c.pair = index;
   c.phi = g.phi;
   classify(node, speed, options.rest, c);
@@ -75,32 +79,69 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   node.contact_of[index] = node.touching++;
 }
 
+/// The contacts of every tree, in order.
+void list_contacts_by_tree(Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    for (const ContactVector::Part& part : node.contacts[i].n.part) {
+      if (part.tree >= 0) node.contacts_on[part.tree].push_back(i);
+    }
+  }
+}
+
+void clear_contacts_by_tree(Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    for (const ContactVector::Part& part : node.contacts[i].n.part) {
+      if (part.tree >= 0) node.contacts_on[part.tree].clear();
+    }
+  }
+}
+
+/// Row i of G: its own trees' contacts.
+void add_row(int i, Node& node) {
+  ContactMatrix& G = node.G;
+  const Contact& c = node.contacts[i];
+  const int first = static_cast<int>(G.column.size());
+  G.start.push_back(first);
+  for (const ContactVector::Part& part : c.n.part) {
+    if (part.tree < 0) continue;
+    for (const int j : node.contacts_on[part.tree]) {
+      // a pair that shares both trees is met twice
+      if (std::find(G.column.begin() + first, G.column.end(), j) != G.column.end()) continue;
+      G.column.push_back(j);
+      // G is symmetric to the last bit: its upper triangle is what is computed
+      const int row = std::min(i, j), column = std::max(i, j);
+      G.value.push_back(dot(node.contacts[row].n, node.contacts[column].column));
+      if (j == i) G.diagonal.push_back(G.value.back());
+    }
+  }
+}
+
+/// Columns, rates and G of all contacts.
 void set_G(const ModelData& model, Node& node) {
   const int m = node.touching;
-  node.G.resize(std::max(node.G.size(), static_cast<std::size_t>(m) * m));
   if (node.u.size() < m) {
     node.u.resize(m);
     node.rest.resize(m);
   }
   for (int i = 0; i < m; ++i) {
     Contact& c = node.contacts[i];
-    c.column = c.n;
-    solve(model.tree, model.packed, node.M, c.column);
+    solve(model, node.trees, c.n, node.M, node.column, c.column);
     node.u[i] = c.u;
     node.rest[i] = c.epsilon_u;
   }
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const double G_ij = node.contacts[i].n.dot(node.contacts[j].column);
-      node.G[i * m + j] = G_ij;
-      node.G[j * m + i] = G_ij;
-    }
-  }
+  node.G.start.clear();
+  node.G.column.clear();
+  node.G.value.clear();
+  node.G.diagonal.clear();
+  list_contacts_by_tree(node);
+  for (int i = 0; i < m; ++i) add_row(i, node);
+  node.G.start.push_back(static_cast<int>(node.G.column.size()));
+  clear_contacts_by_tree(node);
 }
 
 void apply(Node& node, int contact, double lambda) {
-  node.p += lambda * node.contacts[contact].n;
-  node.v += lambda * node.contacts[contact].column;
+  add(node.trees, lambda, node.contacts[contact].n, node.p);
+  add(node.trees, lambda, node.contacts[contact].column, node.v);
 }
 
 }  // namespace
@@ -111,13 +152,21 @@ Node::Node(const ModelData& model)
       w(model.packed),
       kin(model.tree),
       M(model.tree, model.packed),
-      broad(model.tree, model.shapes, model.pairs) {
+      broad(model.tree, model.shapes, model.pairs),
+      trees(model) {
   const int n = model.tree.coordinates;
-  for (VecX* x : {&q, &p, &v, &dq, &launch.n}) x->setZero(n);
+  for (VecX* x : {&q, &p, &v, &dq, &dense, &column, &launch.n}) x->setZero(n);
   for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
   const std::size_t reserved = std::min(model.pairs.size(), contacts_reserved);
-  contacts.assign(reserved, fresh_contact(n));
-  G.reserve(reserved * reserved);
+  for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees));
+  G.start.reserve(reserved + 1);
+  G.diagonal.reserve(reserved);
+  G.column.reserve(reserved * reserved);
+  G.value.reserve(reserved * reserved);
+  cascade.key.reserve(reserved);
+  cascade.winner.reserve(4 * reserved);
+  contacts_on.resize(trees.of.size());
+  for (auto& each : contacts_on) each.reserve(std::min(reserved, most_on_a_tree));
   impulses.reserve(impulses_reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
@@ -159,7 +208,10 @@ void settle_held_contacts(const ModelData& model, Node& node) {
     if (node.held[node.contacts[i].pair]) held[count++] = i;
   }
   if (count == 0) return;
-  set_G(model, node);
+  for (int i = 0; i < count; ++i) {
+    Contact& c = node.contacts[held[i]];
+    solve(model, node.trees, c.n, node.M, node.column, c.column);
+  }
   SmallVec lambda;
   // impulses only push: those that would pull are let go, the worst first
   for (; count > 0; --count) {
@@ -167,7 +219,9 @@ void settle_held_contacts(const ModelData& model, Node& node) {
     SmallVec u(count);
     for (int i = 0; i < count; ++i) {
       u[i] = node.contacts[held[i]].u;
-      for (int j = 0; j < count; ++j) G(i, j) = node.G[held[i] * node.touching + held[j]];
+      for (int j = 0; j < count; ++j) {
+        G(i, j) = dot(node.contacts[held[i]].n, node.contacts[held[j]].column);
+      }
     }
     lambda = solve_small(G, -u);
     int worst = 0;
@@ -177,7 +231,7 @@ void settle_held_contacts(const ModelData& model, Node& node) {
   for (int i = 0; i < count; ++i) apply(node, held[i], lambda[i]);
   for (int i = 0; i < node.touching; ++i) {
     Contact& c = node.contacts[i];
-    c.u = c.n.dot(node.v);
+    c.u = dot(node.trees, c.n, node.v);
     c.motion = motion_of(c.u, c.epsilon_u);
   }
 }
@@ -190,11 +244,13 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
                          Node& node, StepReport& report) {
   set_G(model, node);
   const int m = node.touching;
-  const Eigen::Map<const MatX> G(node.G.data(), m, m);
   node.impulses.clear();
   CascadeOptions cascade_options;
   cascade_options.max_impulses = options.max_impulses;
-  if (!cascade(G, node.u.head(m), node.rest.head(m), cascade_options, node.impulses)) return false;
+  if (!cascade(node.G, node.u.head(m), node.rest.head(m), cascade_options, node.cascade,
+               node.impulses)) {
+    return false;
+  }
 
   Impact impact{node.t,
                 static_cast<int>(report.impulses.size()),
@@ -205,15 +261,16 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
   double strongest = 0;
   for (const Impulse& impulse : node.impulses) {
     // lambda u / 2 is the normal kinetic energy u^2 / 2G four times over: lambda = -2 u / G
-    const double energy = impulse.lambda * impulse.lambda * G(impulse.pair, impulse.pair) / 8;
+    const double energy = impulse.lambda * impulse.lambda * node.G.diagonal[impulse.pair] / 8;
     strongest = std::max(strongest, energy);
   }
   for (const Impulse& impulse : node.impulses) {
     const Contact& c = node.contacts[impulse.pair];
-    const double energy = impulse.lambda * impulse.lambda * G(impulse.pair, impulse.pair) / 8;
+    const double energy = impulse.lambda * impulse.lambda * node.G.diagonal[impulse.pair] / 8;
     if (energy > 1e-3 * strongest) {  // the last strong one carries the energy match
       node.launch.normal_energy = energy;
-      node.launch.n = c.n;
+      node.launch.n.setZero();
+      add(node.trees, 1, c.n, node.launch.n);
     }
     apply(node, impulse.pair, impulse.lambda);
     report.impulses.push_back({c.pair, impulse.lambda});

@@ -13,6 +13,7 @@
 #include "saltus/model/model.hpp"
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/report.hpp"
+#include "variational/contact_vector.hpp"
 
 namespace saltus {
 
@@ -23,8 +24,8 @@ struct Contact {
   double u = 0;          ///< [m/s] gap rate
   double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
-  VecX n;       ///< (n_q) phi_q
-  VecX column;  ///< (n_q) M^-1 n, written by the impact
+  ContactVector n;       ///< phi_q
+  ContactVector column;  ///< M^-1 n, written by the impact
 };
 
 /// What discrete_energy asks of the next arc: E_d = energy, by a last impulse along n.
@@ -51,8 +52,12 @@ struct Node {
   Kinematics kin;
   PackedMatrix M;
   BroadPhase broad;
-  VecX dq, u, rest;
-  std::vector<double> G;  ///< grows only; (touching, touching)
+  TreeCoordinates trees;
+  VecX dq, u, rest, column;
+  VecX dense;  ///< (n_q) zero between uses
+  ContactMatrix G;
+  CascadeScratch cascade;
+  std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
   double total_mass = 0;
 };

@@ -105,6 +105,7 @@ void Stepper::Impl::start(const State& state) {
   if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
   last_is_valid = false;
   flight.history.clear();
+  flight.has_rate = false;
   node.launch.pending = false;
   start_anew(node.broad);
   start_anew(flight.broad);

@@ -71,7 +71,11 @@ struct PackedProducts {
 SALTUS_EXPORT void multiply_by_rates(const PackedTree& packed, const Packed& w,
                                      PackedProducts& out);
 
-/// R, p, S and origin of every joint, as set_configuration would; needs place.
+/// R, p and S of one joint and the origin of its tree, as set_configuration would write them; needs
+/// place.
+SALTUS_EXPORT void copy_pose(const Tree& tree, const PackedTree& packed, const Packed& w, int joint,
+                             Kinematics& kin);
+/// Those of all joints.
 SALTUS_EXPORT void copy_poses(const Tree& tree, const PackedTree& packed, const Packed& w,
                               Kinematics& kin);
 

@@ -57,6 +57,10 @@ struct PackedMatrix {
 SALTUS_EXPORT bool factorize(const Tree& tree, const PackedTree& packed, const Packed& w,
                              double tau, PackedMatrix& J);
 
+/// x <- J^-1 x on one tree, x by position in the tree; trees do not know of each other. Not with
+/// mimic joints.
+SALTUS_EXPORT void solve_tree(const PackedTree& packed, int tree, PackedMatrix& J, double* x);
+
 /// x <- J^-1 x, x (n_q).
 SALTUS_EXPORT void solve(const Tree& tree, const PackedTree& packed, PackedMatrix& J, VecX& x);
 

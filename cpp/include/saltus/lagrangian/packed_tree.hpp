@@ -67,8 +67,15 @@ struct PackedGroup {
   int slot(int position) const { return first + position * width; }
 };
 
+/// Where a tree is.
+struct PackedPlace {
+  int group, lane;
+};
+
 struct PackedTree {
   std::vector<PackedGroup> groups;
+  std::vector<PackedPlace> trees;
+  std::vector<int> tree;   ///< (n) index in `trees` of each joint
   std::vector<int> slot;   ///< (n) of each joint
   std::vector<int> joint;  ///< (slots) in each slot, -1 where there is none
   int slots = 0;           ///< a multiple of 8

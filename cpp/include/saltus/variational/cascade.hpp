@@ -28,10 +28,31 @@ struct CascadeOptions {
   int max_impulses = 100000;
 };
 
-/// Contact-space cascade in place.
-/// @param G (m, m) N M^-1 N^T; @param u (m) gap rates, changed; @param rest (m) epsilon_u >= 0
+/// G = N M^-1 N^T by rows, without the zeros: contacts on different bodies do not feel each other.
+struct ContactMatrix {
+  std::vector<int> start;        ///< (m + 1) where a row begins
+  std::vector<int> column;       ///< of each entry
+  std::vector<double> value;     ///< likewise
+  std::vector<double> diagonal;  ///< (m)
+
+  int size() const { return static_cast<int>(diagonal.size()); }
+};
+
+/// Who is next, kept up to date by a tournament: O(log m) where a rate changes.
+struct CascadeScratch {
+  std::vector<double> key;  ///< (m) below 0 where a contact approaches
+  std::vector<int> winner;  ///< (2 leaves) of each match; winner[1] of all
+};
+
+/// Contact-space cascade in place: O(entries of a row) an impulse.
+/// @param u (m) gap rates, changed; @param rest (m) epsilon_u >= 0
 /// @param impulses appended: (index of contact, lambda) in order
 /// @return false when max_impulses did not suffice.
+SALTUS_EXPORT bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
+                           const CascadeOptions& options, CascadeScratch& scratch,
+                           std::vector<Impulse>& impulses);
+
+/// The same from a dense G (m, m).
 SALTUS_EXPORT bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
                            const CascadeOptions& options, std::vector<Impulse>& impulses);
 

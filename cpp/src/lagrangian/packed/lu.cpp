@@ -203,4 +203,22 @@ SALTUS_CLONES void solve_lu(const PackedGroup& g, PackedMatrix& J) {
   }
 }
 
+void solve_lane(const PackedGroup& g, int lane, PackedMatrix& J, double* x) {
+  const PackedRows& upper = J.symmetric ? J.lower : J.upper;
+  const auto entry = [&](int j, int level) { return g.row[j] * lanes + level * g.width + lane; };
+  for (int j = g.positions - 1; j >= 0; --j) {
+    const double each = x[j] * *at(J.inverse, g.slot(j) + lane);
+    for (int i = g.parent[j]; i >= 0; i = g.parent[i]) {
+      x[i] -= number(upper, entry(j, g.level[i])) * each;
+    }
+  }
+  for (int j = 0; j < g.positions; ++j) {
+    double sum = x[j];
+    for (int i = g.parent[j]; i >= 0; i = g.parent[i]) {
+      sum -= number(J.lower, entry(j, g.level[i])) * x[i];
+    }
+    x[j] = sum * *at(J.inverse, g.slot(j) + lane);
+  }
+}
+
 }  // namespace saltus::packed

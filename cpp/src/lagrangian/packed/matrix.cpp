@@ -148,4 +148,16 @@ void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
   for (int i = 0; i < tree.joints(); ++i) x[i] = *at(J.x, t.slot[i]);
 }
 
+void solve_tree(const PackedTree& t, int tree, PackedMatrix& J, double* x) {
+  const PackedPlace& place = t.trees[tree];
+  const PackedGroup& g = t.groups[place.group];
+  if (!g.sweep) {
+    packed::solve_lane(g, place.lane, J, x);
+    return;
+  }
+  for (int k = 0; k < g.positions; ++k) *at(J.x, g.slot(k)) = x[k];
+  packed::solve_sweep(g, J);
+  for (int k = 0; k < g.positions; ++k) x[k] = *at(J.x, g.slot(k));
+}
+
 }  // namespace saltus

@@ -13,6 +13,8 @@ void multiply_lu(const PackedGroup& g, PackedMatrix& J);
 /// @return false where a pivot vanishes or is not a number.
 bool eliminate_lu(const PackedGroup& g, PackedMatrix& J);
 void solve_lu(const PackedGroup& g, PackedMatrix& J);
+/// One tree of a group, x by position.
+void solve_lane(const PackedGroup& g, int lane, PackedMatrix& J, double* x);
 
 bool factorize_sweep(const PackedGroup& g, PackedMatrix& J);
 void solve_sweep(const PackedGroup& g, PackedMatrix& J);

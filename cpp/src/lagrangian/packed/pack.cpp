@@ -7,8 +7,13 @@
 namespace saltus {
 namespace {
 
-// Measured: up to about 20 joints on a path the elimination is faster than the sweep.
-constexpr int deepest_for_lu = 20;
+// Measured: elimination costs about 10 ns a pair of joints on a branch (2 ns in lanes of equal
+// trees), the sweep 75 ns a joint (it has no lanes).
+bool prefers_sweep(const std::vector<int>& level, bool in_lanes) {
+  long pairs = 0;  // without the joints themselves
+  for (const int each : level) pairs += each;
+  return pairs > (in_lanes ? 30 : 7) * static_cast<long>(level.size());
+}
 
 /// The joints of one tree in preorder, and what must be equal for trees to share lanes.
 struct Shape {
@@ -68,12 +73,35 @@ PackedGroup group_of(const Shape& shape, int trees, int first, TreeSolver solver
   g.branched = shape.branched;
   g.depth = shape.depth;
   g.sweep = solver == TreeSolver::sweep ||
-            (solver == TreeSolver::automatic && shape.depth > deepest_for_lu);
+            (solver == TreeSolver::automatic && prefers_sweep(shape.level, trees > 1));
   g.parent = shape.parent;
   g.level = shape.level;
   g.reference_path = shape.reference_path;
   g.row.resize(g.parent.size());
   return g;
+}
+
+/// The trees, equal ones together, in order of the first of each; those that the sweep solves stay
+/// alone, since it has no lanes.
+std::vector<std::vector<Shape>> sort_trees(const Tree& tree, TreeSolver solver) {
+  const auto children = children_of(tree);
+  std::vector<int> position(tree.parent.size());
+  std::vector<std::vector<Shape>> sorted;
+  std::map<std::vector<int>, std::size_t> place_of;
+  const auto& roots = children.back();
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
+    Shape shape = shape_of(tree, children, *root, position);
+    const bool alone = solver == TreeSolver::sweep ||
+                       (solver == TreeSolver::automatic && prefers_sweep(shape.level, true));
+    if (alone) {
+      sorted.push_back({std::move(shape)});
+      continue;
+    }
+    const auto [at_key, is_new] = place_of.try_emplace(shape.key(), sorted.size());
+    if (is_new) sorted.emplace_back();
+    sorted[at_key->second].push_back(std::move(shape));
+  }
+  return sorted;
 }
 
 void set_rows(bool sweep, PackedTree& t) {
@@ -113,31 +141,17 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
   PackedTree t;
   t.one_to_one = tree.one_to_one;
   t.gravity = mass.gravity;
-  const auto children = children_of(tree);
-  std::vector<int> position(tree.parent.size());
-  // the groups in order of their first trees; deep trees do not share lanes: the sweep has none
-  std::vector<std::vector<Shape>> sorted;
-  std::map<std::vector<int>, std::size_t> place_of;
-  const auto& roots = children.back();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    Shape shape = shape_of(tree, children, *root, position);
-    const bool shares = solver == TreeSolver::lu ||
-                        (solver == TreeSolver::automatic && shape.depth <= deepest_for_lu);
-    if (!shares) {
-      sorted.push_back({std::move(shape)});
-      continue;
-    }
-    const auto [at_key, is_new] = place_of.try_emplace(shape.key(), sorted.size());
-    if (is_new) sorted.emplace_back();
-    sorted[at_key->second].push_back(std::move(shape));
-  }
+  const std::vector<std::vector<Shape>> sorted = sort_trees(tree, solver);
   t.slot.resize(tree.parent.size());
+  t.tree.resize(tree.parent.size());
   for (const std::vector<Shape>& equal : sorted) {
     const PackedGroup g = group_of(equal.front(), static_cast<int>(equal.size()), t.slots, solver);
     for (std::size_t lane = 0; lane < equal.size(); ++lane) {
       for (int k = 0; k < g.positions; ++k) {
         t.slot[equal[lane].joints[k]] = g.slot(k) + static_cast<int>(lane);
+        t.tree[equal[lane].joints[k]] = static_cast<int>(t.trees.size());
       }
+      t.trees.push_back({static_cast<int>(t.groups.size()), static_cast<int>(lane)});
     }
     t.slots += (g.positions * g.width + lanes - 1) / lanes * lanes;
     t.groups.push_back(g);

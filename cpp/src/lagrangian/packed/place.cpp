@@ -191,16 +191,19 @@ void place(const PackedTree& t, Packed& w) {
 
 void move(const PackedTree& t, Packed& w) { packed::set_twists(t, w); }
 
+void copy_pose(const Tree& tree, const PackedTree& t, const Packed& w, int joint, Kinematics& kin) {
+  JointMotion& m = kin.joint[joint];
+  const int slot = t.slot[joint], root = tree.root[joint];
+  const double *R = at(w.R, slot), *p = at(w.p, slot), *S = at(w.S_W, slot);
+  for (int c = 0; c < 9; ++c) m.R.data()[c] = R[c * lanes];  // both by columns
+  for (int c = 0; c < 3; ++c) m.p[c] = p[c * lanes];
+  for (int c = 0; c < 6; ++c) m.S[c] = S[c * lanes];
+  const double* p_root = at(w.p, t.slot[root]);
+  for (int c = 0; c < 3; ++c) kin.origin[root][c] = p_root[(3 + c) * lanes] - p_root[c * lanes];
+}
+
 void copy_poses(const Tree& tree, const PackedTree& t, const Packed& w, Kinematics& kin) {
-  for (int i = 0; i < tree.joints(); ++i) {
-    JointMotion& m = kin.joint[i];
-    const double *R = at(w.R, t.slot[i]), *p = at(w.p, t.slot[i]), *S = at(w.S_W, t.slot[i]);
-    for (int c = 0; c < 9; ++c) m.R.data()[c] = R[c * lanes];  // both by columns
-    for (int c = 0; c < 3; ++c) m.p[c] = p[c * lanes];
-    for (int c = 0; c < 6; ++c) m.S[c] = S[c * lanes];
-    if (tree.parent[i] >= 0) continue;
-    for (int c = 0; c < 3; ++c) kin.origin[i][c] = p[(3 + c) * lanes] - p[c * lanes];
-  }
+  for (int i = 0; i < tree.joints(); ++i) copy_pose(tree, t, w, i, kin);
 }
 
 }  // namespace saltus

@@ -1,0 +1,50 @@
+// Rows phi_q and columns M^-1 phi_q^T of contacts: zero but on the one or two trees that touch.
+//
+// M is block diagonal, a block a tree, so a column lives where its row does, and contacts that
+// share no tree do not know of each other.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/model/model.hpp"
+
+namespace saltus {
+
+/// The coordinates of every tree, in order of position; one list of all with mimic joints, which
+/// tie trees together.
+struct TreeCoordinates {
+  explicit TreeCoordinates(const ModelData& model);
+  std::vector<std::vector<int>> of;
+  bool one_to_one;
+  int most = 0;  ///< entries of the longest list
+};
+
+struct ContactVector {
+  struct Part {
+    int tree = -1;  ///< none
+    int first = 0, count = 0;
+  };
+  std::array<Part, 2> part;
+  std::vector<double> value;
+};
+
+/// Parts of a pair's row, all zero.
+void shape_row(const ModelData& model, const TreeCoordinates& trees, const Pair& pair,
+               ContactVector& row);
+
+/// Takes the row's entries out of `dense` (n_q), and leaves zeros there.
+void take_from(const TreeCoordinates& trees, VecX& dense, ContactVector& row);
+
+double dot(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
+double dot(const ContactVector& row, const ContactVector& column);
+/// sum |row_k x_k|
+double dot_sizes(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
+/// x += factor row
+void add(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x);
+/// column <- M^-1 row
+void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,
+           PackedMatrix& M, VecX& scratch, ContactVector& column);
+
+}  // namespace saltus
