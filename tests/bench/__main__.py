@@ -6,11 +6,11 @@ import argparse
 import json
 from pathlib import Path
 
-from tests.bench import cradle, flops, page, peers, scenes, table, trep
+from tests.bench import batch, cradle, flops, page, peers, scenes, table, trep
 from tests.bench.kernels import Programs, machine, versions
 
 # Pinocchio's headers take half a minute to compile.
-QUICK_PROGRAMS = ("bench_kernels", "bench_impacts", "bench_peaks")
+QUICK_PROGRAMS = ("bench_kernels", "bench_impacts", "bench_peaks", "bench_scaling")
 
 
 def chosen_scenes(quick: bool) -> tuple[list[scenes.Scene], list[str]]:
@@ -74,6 +74,12 @@ def measure(quick: bool, seconds: float, rounds: int) -> dict:
         "rows": rows,
         "growth": flops.growth(rows),
         "impacts": impacts,
+        "batch": batch.measure(
+            programs.path("bench_scaling"),
+            runs=20 if quick else 1000,
+            duration=0.1 if quick else 2.0,
+            passes=1 if quick else batch.PASSES,
+        ),
         "emblem": [run for run in emblem if run is not None],
     }
 

@@ -47,6 +47,10 @@ class Programs:
         self.has_pinocchio = (BUILD / "bench_pinocchio").exists()
 
     @staticmethod
+    def path(program: str) -> Path:
+        return BUILD / program
+
+    @staticmethod
     def _wheels() -> list[str]:
         """Return where wheels like pin put C++ libraries."""
         site = Path(saltus.__file__).parents[1]

@@ -50,6 +50,13 @@ has an energy error of 0, and its middle ball rests.
 
 {emblem}
 
+## Batches
+
+`simulate_batch` over threads, beside what a second thread is worth at all on this machine: a loop
+of multiply-adds in registers.
+
+{batch}
+
 ## All times
 
 [µs]; what the ratios are made of.
@@ -68,6 +75,7 @@ def markdown(results: dict, image: str | None) -> str:
         ratios=table.ratios(results),
         growth=table.growth(results["growth"]) or "(not measured)",
         impacts=table.impacts(results["impacts"]),
+        batch=table.batch(results["batch"]) or "(not measured)",
         emblem=table.emblem(results["emblem"]),
         times=table.times(results["rows"]),
     )

@@ -65,7 +65,7 @@ TIMES = {  # what the ratios are made of, and more
 def markdown(results: dict) -> str:
     parts = [bullets(notes(results)), HOW, ratios(results), growth(results["growth"])]
     parts += ["Absolute times [µs]:", times(results["rows"]), impacts(results["impacts"])]
-    parts += [emblem(results["emblem"])]
+    parts += [batch(results["batch"]), emblem(results["emblem"])]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -160,6 +160,21 @@ def impacts(rows: list[dict]) -> str:
         each = (row["impulses"] / row["impacts"], row["arcs"] / row["steps"])
         lines.append([row["model"], str(row["h"]), *map(number, (*cells, *each))])
     return grid(head, lines)
+
+
+def batch(result: dict) -> str:
+    """Return what a second thread is worth to a batch, and to a loop of multiply-adds."""
+    if not result:
+        return ""
+    # read from JSON, the numbers of threads are text
+    wall, cpu = (
+        {int(n): seconds for n, seconds in result[name].items()} for name in ("wall", "cpu")
+    )
+    head = ["cradles of 3", "s each", "wall s, 1 thread", "2 threads", "CPU s, 1 thread"]
+    head += ["2 threads", "speed-up", "of a multiply-add loop", "the one over the other"]
+    cells = (result["runs"], result["duration"], wall[1], wall[2], cpu[1], cpu[2])
+    ends = (result["scaling"], result["scaling_multiply_adds"], result["efficiency"])
+    return grid(head, [list(map(number, (*cells, *ends)))])
 
 
 def emblem(runs: list[dict]) -> str:

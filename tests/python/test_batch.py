@@ -267,7 +267,9 @@ def test_other_python_threads_go_on_meanwhile():
 
 
 INTERRUPTED = """
-    import numpy as np, saltus
+    import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job ignores it
+import numpy as np, saltus
     model = saltus.load_urdf(saltus.scenes.chain(16))
     def tell(part):
         print("running", flush=True)

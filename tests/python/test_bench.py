@@ -36,6 +36,7 @@ RESULTS = {
         {"model": "cradle 3", "h": 0.001, "smooth": 2.0, "impact": 5.0, "steps": 5}
         | {"impacts": 5, "contacts": 2, "impulses": 10, "arcs": 10}
     ],
+    "batch": {},
     "emblem": [],
 }
 

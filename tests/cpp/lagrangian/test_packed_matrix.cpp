@@ -89,6 +89,36 @@ TEST(PackedMatrix, RowsAreTheSecondPartials) {
   }
 }
 
+// M^-1 of a row that is zero but on one tree is zero but there.
+TEST(PackedMatrix, OneTreeIsSolvedAsAllAre) {
+  for (int k = 0; k < trees; ++k) {
+    for (const TreeSolver solver : solvers) {
+      const PackedEvaluation e(test::packed_tree(k), solver);
+      if (!e.t.tree.one_to_one) continue;
+      PackedMatrix J(e.t.tree, e.packed);
+      ASSERT_TRUE(factorize(e.t.tree, e.packed, e.w, 0.01, J));
+      for (int tree = 0; tree < static_cast<int>(e.packed.trees.size()); ++tree) {
+        const PackedPlace place = e.packed.trees[tree];
+        const PackedGroup& g = e.packed.groups[place.group];
+        VecX all = VecX::Zero(e.t.tree.coordinates), one(g.positions);
+        for (int i = 0; i < g.positions; ++i) {
+          one[i] = 1 + i;
+          all[e.packed.joint[g.slot(i) + place.lane]] = one[i];
+        }
+        solve(e.t.tree, e.packed, J, all);
+        solve_tree(e.packed, tree, J, one.data());
+        double rest = all.cwiseAbs().sum();
+        for (int i = 0; i < g.positions; ++i) {
+          const double expected = all[e.packed.joint[g.slot(i) + place.lane]];
+          EXPECT_NEAR(one[i], expected, 1e-10 * all.norm()) << k;  // their condition times eps
+          rest -= std::abs(expected);
+        }
+        EXPECT_NEAR(rest, 0, 1e-13 * all.cwiseAbs().sum()) << k;
+      }
+    }
+  }
+}
+
 // A joint that moves no mass has no pivot; the others' lanes must not hide it.
 TEST(PackedMatrix, AVanishingPivotIsTold) {
   test::Random random(6);
