@@ -268,8 +268,8 @@ def test_other_python_threads_go_on_meanwhile():
 
 INTERRUPTED = """
     import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job ignores it
-import numpy as np, saltus
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job ignores it
+    import numpy as np, saltus
     model = saltus.load_urdf(saltus.scenes.chain(16))
     def tell(part):
         print("running", flush=True)
