@@ -1,4 +1,5 @@
 // From what a user writes for coordinates, links and shapes to arrays and indices.
+#include <cmath>
 #include <sstream>
 
 #include "bindings.hpp"
@@ -25,7 +26,13 @@ VecX from_mapping(const py::object& x, const Model& model, const std::string& wh
                        list_names(names_of(model->coordinates)));
     }
     const auto name = key.cast<std::string>();
-    out[model.coordinate(name)] = to_number(value, what + "[\"" + name + "\"]");
+    const std::string entry = what + "[\"" + name + "\"]";
+    const int i = model.coordinate(name);
+    out[i] = to_number(value, entry);
+    if (!std::isfinite(out[i])) {
+      throw ModelError(entry + " = " + show(py::float_(out[i])) + " is not finite", "coordinate",
+                       name);
+    }
   }
   return out;
 }
@@ -55,6 +62,17 @@ VecX to_vector(const Coordinates& x, const Model& model, const char* what) {
       is_mapping ? from_mapping(x.value, model, what) : from_array(x.value, what, model.n_q());
   check_vector(out, model.n_q(), what);
   return out;
+}
+
+void refuse_choice(const py::handle& x, const py::handle& kind, const char* what) {
+  const std::string name = kind.attr("__name__").cast<std::string>();
+  std::string members;
+  for (const py::handle member : kind) {
+    members += (members.empty() ? "saltus." : ", saltus.") + name + "." +
+               member.attr("name").cast<std::string>();
+  }
+  throw py::type_error(std::string(what) + " = " + show(x) + " is no " + name + "; there are " +
+                       members);
 }
 
 int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what) {

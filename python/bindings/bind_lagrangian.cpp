@@ -1,4 +1,6 @@
 // Lagrangian floor: body inertias, the Lagrangian and its partials.
+#include <pybind11/native_enum.h>
+
 #include "bindings.hpp"
 #include "saltus/lagrangian/partials.hpp"
 #include "saltus/model/model_builder.hpp"
@@ -25,6 +27,21 @@ constexpr auto partials_doc = R"(L = T - V at one (q, v), and all its first and 
 Read-only views, no copies. Rows of `L_vq` are velocities: `L_vq[i, j]` is the derivative by `v[i]`
 and `q[j]`. Johnson and Murphey, "Discrete and continuous mechanics for tree representations of
 mechanical systems", ICRA 2008, with composite quantities in place of sums over bodies.
+)";
+
+constexpr auto tree_solver_doc = R"(How steps solve for velocities on each tree of a model.
+
+A matter of speed: answers differ by rounding. Leave it to `automatic`, unless timing both says
+otherwise for a tree near the border, or to check answers by another way to them.
+
+automatic
+    lu for shallow trees, sweep for those of more than about 20 joints on a path, where the two
+    are about as fast; `Model.solvers` tells what became of it.
+lu
+    Elimination from the leaves, without fill: O(sum of depth^2). Equal trees are solved side by
+    side, in lanes of vector instructions.
+sweep
+    A recursion like that of articulated bodies, one tree after the other: O(n).
 )";
 
 constexpr auto solid_sphere_doc = R"(Inertia of a homogeneous ball about its centre.
@@ -71,6 +88,11 @@ void bind_inertia(py::module_& m) {
 
 void bind_lagrangian(py::module_& m) {
   bind_inertia(m);
+  py::native_enum<TreeSolver>(m, "TreeSolver", "enum.Enum", tree_solver_doc)
+      .value("automatic", TreeSolver::automatic)
+      .value("lu", TreeSolver::lu)
+      .value("sweep", TreeSolver::sweep)
+      .finalize();
   using L = LagrangianPartials;
   py::class_<L>(m, "LagrangianPartials", partials_doc)
       .def_readonly("value", &L::value, "[J] L = T - V")

@@ -71,6 +71,20 @@ void bind_parts(py::module_& m) {
       .def("__repr__", [](const JointInfo& j) { return "JointInfo('" + j.name + "')"; });
 }
 
+void bind_tree_solution(py::module_& m) {
+  using S = TreeSolution;
+  py::class_<S>(m, "TreeSolution", docs::tree_solution)
+      .def_readonly("solver", &S::solver, "TreeSolver.lu or TreeSolver.sweep")
+      .def_readonly("trees", &S::trees, "equal ones in lanes; 1: this tree alone")
+      .def_readonly("joints", &S::joints, "of one coordinate each, of one tree")
+      .def_readonly("depth", &S::depth, "joints on the longest path from the root")
+      .def("__repr__", [](const S& s) {
+        return "TreeSolution(" + py::cast(s.solver).attr("name").cast<std::string>() +
+               ", trees=" + std::to_string(s.trees) + ", joints=" + std::to_string(s.joints) +
+               ", depth=" + std::to_string(s.depth) + ")";
+      });
+}
+
 void bind_gaps(py::module_& m) {
   py::class_<Gaps>(m, "Gaps", docs::gaps)
       .def_readonly("names", &Gaps::names, "\"a ~ b\", m of them")
@@ -115,6 +129,7 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("coordinate_names",
                              [](const Model& m) { return names_of(m->coordinates); })
       .def_property_readonly("pair_names", &pair_names, "\"a ~ b\" of every pair")
+      .def_property_readonly("solvers", &Model::solvers, "TreeSolutions: how its trees are solved")
       .def("coordinate", &Model::coordinate, py::arg("name"),
            "Index of a coordinate; ModelError with the names there are.")
       .def("link", &Model::link, py::arg("name"),
@@ -133,6 +148,7 @@ void bind_lists(py::class_<Model>& c) {
 void bind_model(py::module_& m) {
   bind_state(m);
   bind_parts(m);
+  bind_tree_solution(m);
   bind_gaps(m);
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);

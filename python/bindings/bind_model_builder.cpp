@@ -46,6 +46,12 @@ void bind_model_builder(py::module_& m) {
   bind_add_joint(c);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
+          "set_solver",
+          [](ModelBuilder& builder, const Unchecked<TreeSolver>& solver) -> ModelBuilder& {
+            return builder.set_solver(to_enum(solver, "solver"));
+          },
+          self, docs::set_solver, py::arg("solver"))
+      .def(
           "add_link",
           [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia)
               -> ModelBuilder& { return builder.add_link({name, inertia}); },

@@ -81,6 +81,13 @@ JammedError
     When the impulses at one instant do not end.
 )";
 
+const Model& to_model(const Unchecked<Model>& model) {
+  if (py::isinstance<Model>(model.value)) return model.value.cast<const Model&>();
+  throw py::type_error("model is a " +
+                       py::type::of(model.value).attr("__name__").cast<std::string>() +
+                       "; saltus.load_urdf makes a Model of it");
+}
+
 /// An Impact with its pairs by name and its own impulses.
 struct NamedImpact {
   double t;
@@ -178,12 +185,12 @@ void bind_stepper(py::module_& m) {
   using S = SharedStepper;
   const StepOptions o;
   py::class_<S>(m, "Stepper", stepper_doc)
-      .def(py::init([](const Model& model, double h, ImpactLaw law, bool collisions,
-                       int max_iterations, int max_impacts, int max_impulses, double rest,
-                       double simultaneous) {
-             const StepOptions options{h,           law,          collisions, max_iterations,
-                                       max_impacts, max_impulses, rest,       simultaneous};
-             return std::make_unique<S>(model, options);
+      .def(py::init([](const Unchecked<Model>& model, double h, const Unchecked<ImpactLaw>& law,
+                       bool collisions, int max_iterations, int max_impacts, int max_impulses,
+                       double rest, double simultaneous) {
+             const StepOptions options{h,           to_enum(law, "law"), collisions, max_iterations,
+                                       max_impacts, max_impulses,        rest,       simultaneous};
+             return std::make_unique<S>(to_model(model), options);
            }),
            py::arg("model"), py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
            py::kw_only(), py::arg("collisions") = o.collisions,

@@ -39,6 +39,8 @@ package_dirs : sequence of str or os.PathLike
     Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
 root_joint : JointType
     How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
+solver : TreeSolver
+    How steps solve for velocities, see `ModelBuilder.set_solver`.
 
 Returns
 -------
@@ -56,11 +58,13 @@ std::string to_path(const PathLike& path) {
 }
 
 ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
-                       const py::typing::Iterable<PathLike>& package_dirs, JointType root_joint) {
+                       const py::typing::Iterable<PathLike>& package_dirs,
+                       const Unchecked<JointType>& root_joint,
+                       const Unchecked<TreeSolver>& solver) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");
   }
-  UrdfOptions options{gravity, {}, root_joint};
+  UrdfOptions options{gravity, {}, to_enum(root_joint, "root_joint"), to_enum(solver, "solver")};
   for (const py::handle path : package_dirs) {
     options.package_dirs.push_back(to_path({py::reinterpret_borrow<py::object>(path)}));
   }
@@ -75,7 +79,8 @@ void bind_urdf(py::module_& m) {
   m.def("read_urdf", &read_urdf, read_urdf_doc, py::arg("path_or_text"), py::kw_only(),
         py::arg_v("gravity", UrdfOptions{}.gravity, "(0, 0, -9.81)"),
         py::arg_v("package_dirs", py::tuple(), "()"),
-        py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"));
+        py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"),
+        py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"));
 }
 
 }  // namespace saltus::bindings

@@ -101,10 +101,11 @@ void bind_step_options(py::module_& m) {
   using O = StepOptions;
   const O o;
   py::class_<O>(m, "StepOptions", step_options_doc)
-      .def(py::init([](double h, ImpactLaw law, bool collisions, int max_iterations,
-                       int max_impacts, int max_impulses, double rest, double simultaneous) {
-             return O{h,           law,          collisions, max_iterations,
-                      max_impacts, max_impulses, rest,       simultaneous};
+      .def(py::init([](double h, const Unchecked<ImpactLaw>& law, bool collisions,
+                       int max_iterations, int max_impacts, int max_impulses, double rest,
+                       double simultaneous) {
+             return O{h,           to_enum(law, "law"), collisions, max_iterations,
+                      max_impacts, max_impulses,        rest,       simultaneous};
            }),
            py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
            py::arg("collisions") = o.collisions, py::kw_only(),

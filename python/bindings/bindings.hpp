@@ -42,6 +42,24 @@ struct Coordinates {
 /// @throws ModelError on a name that the model has not, and on what are no numbers or not (n_q).
 VecX to_vector(const Coordinates& x, const Model& model, const char* what);
 
+/// An argument that must be a T and may be anything: whoever takes it says what is wrong with it,
+/// where pybind11 would print the signatures that there are.
+template <class T>
+struct Unchecked {
+  py::object value;
+};
+
+/// @throws TypeError, always: `x` is no member of `kind`; there are ... `what` names the argument.
+[[noreturn]] void refuse_choice(const py::handle& x, const py::handle& kind, const char* what);
+
+/// The member that is meant.
+template <class Enum>
+Enum to_enum(const Unchecked<Enum>& x, const char* what) {
+  const py::object kind = py::type::of(py::cast(Enum{}));
+  if (!py::isinstance(x.value, kind)) refuse_choice(x.value, kind, what);
+  return x.value.template cast<Enum>();
+}
+
 /// How links and shapes are named.
 using NameOrIndex = py::typing::Union<py::str, py::int_>;
 
@@ -73,6 +91,15 @@ struct type_caster<saltus::bindings::Coordinates> {
   PYBIND11_TYPE_CASTER(
       saltus::bindings::Coordinates,
       const_name("collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+template <class T>
+struct type_caster<saltus::bindings::Unchecked<T>> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::Unchecked<T>, make_caster<T>::name);
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

@@ -36,6 +36,16 @@ gravity : array_like, shape (3,)
     [m/s^2]
 )";
 
+constexpr auto set_solver = R"(Says how steps solve for velocities, on all trees.
+
+A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
+the depth of each tree; `Model.solvers` tells what became of it.
+
+Parameters
+----------
+solver : TreeSolver
+)";
+
 constexpr auto add_link = R"(Adds a link.
 
 Parameters

@@ -28,6 +28,12 @@ constexpr auto coordinate = R"(A generalized coordinate and what the model's fil
 Limits, damping and friction are kept for the user; the stepper does not apply them.
 )";
 
+constexpr auto tree_solution = R"(How steps solve for the velocities of one tree, or of equal ones.
+
+Equal trees (pendulums of a cradle, bodies that fly alone) may be solved side by side, in lanes of
+vector instructions; `trees` says how many.
+)";
+
 constexpr auto gaps = R"(Gaps of all m pairs of a model at one configuration.
 
 `p_WA - p_WB == phi * normal` for every pair. Arrays are read-only views, no copies.

@@ -117,7 +117,8 @@ def _add_info(commands_of: Commands[Parser]) -> None:
     parser = commands_of.add_parser(
         "info",
         help="print what a model consists of",
-        description="Print links, coordinates, shapes and pairs of a URDF file.",
+        description="Print links, coordinates, shapes and pairs of a URDF file, and how its "
+        "trees are solved.",
     )
     parser.add_argument("file", metavar="FILE", help="URDF file")
     parser.add_argument("--pairs", action="store_true", help="print the name of every pair")

@@ -45,6 +45,8 @@ __all__: list[str] = [
     "StepReport",
     "Stepper",
     "Trajectory",
+    "TreeSolution",
+    "TreeSolver",
     "discrete_energy",
     "energies",
     "gap",
@@ -195,6 +197,27 @@ class BodyInertia:
         """
         [kg]
         """
+
+class TreeSolver(enum.Enum):
+    """
+    How steps solve for velocities on each tree of a model.
+
+    A matter of speed: answers differ by rounding. Leave it to `automatic`, unless timing both says
+    otherwise for a tree near the border, or to check answers by another way to them.
+
+    automatic
+        lu for shallow trees, sweep for those of more than about 20 joints on a path, where the two
+        are about as fast; `Model.solvers` tells what became of it.
+    lu
+        Elimination from the leaves, without fill: O(sum of depth^2). Equal trees are solved side by
+        side, in lanes of vector instructions.
+    sweep
+        A recursion like that of articulated bodies, one tree after the other: O(n).
+    """
+
+    automatic = ...
+    lu = ...
+    sweep = ...
 
 class LagrangianPartials:
     """
@@ -539,6 +562,35 @@ class JointInfo:
     @property
     def type(self) -> JointType: ...
 
+class TreeSolution:
+    """
+    How steps solve for the velocities of one tree, or of equal ones.
+
+    Equal trees (pendulums of a cradle, bodies that fly alone) may be solved side by side, in lanes of
+    vector instructions; `trees` says how many.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def depth(self) -> int:
+        """
+        joints on the longest path from the root
+        """
+    @property
+    def joints(self) -> int:
+        """
+        of one coordinate each, of one tree
+        """
+    @property
+    def solver(self) -> TreeSolver:
+        """
+        TreeSolver.lu or TreeSolver.sweep
+        """
+    @property
+    def trees(self) -> int:
+        """
+        equal ones in lanes; 1: this tree alone
+        """
+
 class Gaps:
     """
     Gaps of all m pairs of a model at one configuration.
@@ -820,6 +872,11 @@ class Model:
     @property
     def shapes(self) -> list[PlacedShape]: ...
     @property
+    def solvers(self) -> list[TreeSolution]:
+        """
+        TreeSolutions: how its trees are solved
+        """
+    @property
     def source(self) -> str:
         """
         the URDF text it was read from, "" for a model built in code
@@ -1014,6 +1071,17 @@ class ModelBuilder:
         ----------
         gravity : array_like, shape (3,)
             [m/s^2]
+        """
+    def set_solver(self, solver: TreeSolver) -> ModelBuilder:
+        """
+        Says how steps solve for velocities, on all trees.
+
+        A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
+        the depth of each tree; `Model.solvers` tells what became of it.
+
+        Parameters
+        ----------
+        solver : TreeSolver
         """
     @property
     def warnings(self) -> list[str]: ...
@@ -1488,6 +1556,7 @@ def read_urdf(
     gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, -9.81),
     package_dirs: collections.abc.Iterable[str | os.PathLike[str]] = (),
     root_joint: JointType = ...,
+    solver: TreeSolver = ...,
 ) -> ModelBuilder:
     """
     Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -1502,6 +1571,8 @@ def read_urdf(
         Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
     root_joint : JointType
         How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
+    solver : TreeSolver
+        How steps solve for velocities, see `ModelBuilder.set_solver`.
 
     Returns
     -------

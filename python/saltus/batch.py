@@ -92,7 +92,7 @@ def simulate_batch(
     StepError, JammedError
         With `OnFailure.stop`, as `simulate`, with "run <index>: " before the message.
     """
-    check_types(model, law, bounds, "simulate_batch")
+    check_types(model, bounds, "simulate_batch")
     if not isinstance(on_failure, OnFailure):
         raise TypeError(
             f"on_failure = {on_failure!r} is no OnFailure; there are saltus.OnFailure.go_on, "

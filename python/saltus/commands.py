@@ -70,6 +70,7 @@ def info(chosen: argparse.Namespace) -> int:
         f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
         f"coordinates, {len(model.shapes)} shapes, {len(model.pairs)} pairs, {mass:g} kg"
     )
+    _print_solvers(model)
     _print_table(
         "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}"] for link in model.links)
     )
@@ -109,6 +110,16 @@ def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:
         print(
             f"            ... {len(run.impacts) - shown} more impacts (--all-impacts prints them)"
         )
+
+
+def _print_solvers(model: saltus.Model) -> None:
+    def words(tree: saltus.TreeSolution) -> str:
+        lanes = f", {tree.trees} equal trees in lanes" if tree.trees > 1 else ""
+        return f"{tree.solver.name} (depth {tree.depth}{lanes})"
+
+    counts = Counter(words(tree) for tree in model.solvers)
+    texts = [f"{count} x {text}" if count > 1 else text for text, count in counts.items()]
+    print(f"solver: {', '.join(texts) or 'none, nothing moves'}")
 
 
 def _print_coordinates(model: saltus.Model) -> None:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from saltus._core import (
     Model,
     ModelError,
     StepOptions,
+    TreeSolver,
     __version__,
     read_urdf,
 )
@@ -28,6 +30,13 @@ ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
 BOUNDS = ("max_iterations", "max_impacts", "max_impulses", "rest", "simultaneous")
 OPTIONS = ("h", "collisions", *BOUNDS)
 NUMBERS = ("iterations", "residual", "complete", "energy_error")
+
+
+class UrdfOptions(TypedDict):
+    """The options of `load_urdf` that change what a model consists of."""
+
+    root_joint: JointType
+    solver: TreeSolver
 
 
 def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -105,13 +114,14 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     file["impacts"] = run.impacts.astype(np.dtype(fields))
     for name in ("coordinate_names", "pair_names"):
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
-    root_joint = None if run.model is None else _root_joint(run.model)
-    if run.model is None or root_joint is None:
+    options = None if run.model is None else _urdf_options(run.model)
+    if run.model is None or options is None:
         file.attrs["model"] = "not in this file: it was built in code"
         return
     file.attrs["model"] = "URDF text in urdf"
     file.attrs["gravity"] = run.model.gravity
-    file.attrs["root_joint"] = root_joint.name
+    file.attrs["root_joint"] = options["root_joint"].name
+    file.attrs["solver"] = options["solver"].name
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
@@ -137,6 +147,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             file["urdf"].asstr()[()],
             gravity=file.attrs["gravity"],
             root_joint=JointType[file.attrs["root_joint"]],
+            solver=TreeSolver[file.attrs.get("solver", "automatic")],
         ).build()
         if not pairs:
             model = model.without_collisions()
@@ -167,26 +178,28 @@ def _check_model(
             )
 
 
-def _root_joint(model: Model) -> JointType | None:
-    """Return the `root_joint` with which `load_urdf` makes this model of its text.
+def _urdf_options(model: Model) -> UrdfOptions | None:
+    """Return the `root_joint` and `solver` with which `load_urdf` makes this model of its text.
 
     None where there is no text, or where the model was changed after it was read: links, joints,
-    shapes or pairs then differ.
+    shapes or pairs then differ. A solver that makes the same of its trees gives the same bits.
     """
     if not model.source:
         return None
     # The joint that load_urdf added, if it did, is the only one below the model's root.
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
-    for root_joint in (JointType.fixed, *types):
+    for root_joint, solver in product((JointType.fixed, *types), TreeSolver):
+        options: UrdfOptions = {"root_joint": root_joint, "solver": solver}
         try:
-            again = read_urdf(model.source, root_joint=root_joint).build()
+            again = read_urdf(model.source, **options).build()
         except ModelError:
             continue
-        if _names(again if model.pairs else again.without_collisions()) == _names(model):
-            return root_joint
+        if _parts(again if model.pairs else again.without_collisions()) == _parts(model):
+            return options
     return None
 
 
-def _names(model: Model) -> tuple[list[str], ...]:
+def _parts(model: Model) -> tuple[list[str], ...]:
     shapes = [shape.name for shape in model.shapes]
-    return model.link_names, model.joint_names, model.coordinate_names, shapes, model.pair_names
+    names = model.link_names, model.joint_names, model.coordinate_names, shapes, model.pair_names
+    return *names, [repr(trees) for trees in model.solvers]

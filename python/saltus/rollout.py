@@ -92,7 +92,7 @@ def simulate(
     JammedError
         When the impulses at one instant do not end.
     """
-    check_types(model, law, bounds, "simulate")
+    check_types(model, bounds, "simulate")
     if state is None:
         state = model.state(q, v)
     elif q is not None or v is not None:
@@ -111,13 +111,10 @@ def simulate(
     return Trajectory.from_core(core)
 
 
-def check_types(model: object, law: object, bounds: Mapping[str, object], caller: str) -> None:
+def check_types(model: object, bounds: Mapping[str, object], caller: str) -> None:
     """Raise TypeError in words; the compiled part would print all its signatures."""
     if not isinstance(model, Model):
         raise TypeError(f"model is a {type(model).__name__}; saltus.load_urdf makes a Model of it")
-    if not isinstance(law, ImpactLaw):
-        laws = ", ".join(f"saltus.{law.name}" for law in ImpactLaw)
-        raise TypeError(f"law = {law!r} is no ImpactLaw; there are {laws}")
     for name in bounds:
         if name not in StepBounds.__annotations__:
             names = ", ".join(StepBounds.__annotations__)

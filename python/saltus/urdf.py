@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import JointType, Model, ModelError, read_urdf
+from saltus._core import JointType, Model, ModelError, TreeSolver, read_urdf
 
 
 class ModelWarning(UserWarning):
@@ -22,6 +22,7 @@ def load_urdf(
     gravity: ArrayLike = (0.0, 0.0, -9.81),
     package_dirs: Sequence[str | os.PathLike[str]] = (),
     root_joint: JointType = JointType.fixed,
+    solver: TreeSolver = TreeSolver.automatic,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -36,6 +37,9 @@ def load_urdf(
     root_joint : JointType
         How the root link hangs on the world: fixed, or by a joint named "root" below a link
         named "world".
+    solver : TreeSolver
+        How steps solve for velocities: a matter of speed, answers differ by rounding. Rarely
+        worth giving; `TreeSolver` says when, `Model.solvers` what became of it.
 
     Returns
     -------
@@ -54,7 +58,11 @@ def load_urdf(
     if np.shape(gravity) != (3,):
         raise ModelError(f"gravity = {gravity!r}; it has three components [m/s^2]")
     builder = read_urdf(
-        path_or_text, gravity=gravity, package_dirs=package_dirs, root_joint=root_joint
+        path_or_text,
+        gravity=gravity,
+        package_dirs=package_dirs,
+        root_joint=root_joint,
+        solver=solver,
     )
     model = builder.build()
     for text in model.warnings:

@@ -34,6 +34,7 @@ set(SALTUS_TEST_model
   model/test_golden.cpp
   model/test_model.cpp
   model/test_pairs.cpp
+  model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
   variational/test_cradle.cpp

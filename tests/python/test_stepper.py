@@ -91,8 +91,17 @@ def test_options_out_of_range(options):
 
 
 def test_wrong_options_are_type_errors():
-    with pytest.raises(TypeError):
-        saltus.Stepper(cradle(), law="nodal_energy")
+    laws = "saltus.ImpactLaw.nodal_energy, saltus.ImpactLaw.discrete_energy"
+    for act in (
+        lambda law: saltus.Stepper(cradle(), law=law),
+        lambda law: saltus.StepOptions(law=law),
+    ):
+        for law in ("nodal_energy", 0, None):  # numbers are laws in arrays of impacts only
+            with pytest.raises(TypeError) as error:
+                act(law)
+            assert str(error.value) == f"law = {law!r} is no ImpactLaw; there are {laws}"
+    with pytest.raises(TypeError, match=r"^model is a str; saltus.load_urdf makes a Model of it$"):
+        saltus.Stepper("model.urdf")
     with pytest.raises(TypeError):
         saltus.Stepper(cradle(), hh=0.1)
     with pytest.raises(TypeError):

@@ -71,6 +71,15 @@ std::string Model::pair_name(int pair) const {
   return data_->shapes[p.a].name + " ~ " + data_->shapes[p.b].name;
 }
 
+std::vector<TreeSolution> Model::solvers() const {
+  std::vector<TreeSolution> out;
+  for (const PackedGroup& group : data_->packed.groups) {
+    const TreeSolver solver = group.sweep ? TreeSolver::sweep : TreeSolver::lu;
+    out.push_back({solver, group.trees, group.positions, group.depth});
+  }
+  return out;
+}
+
 State Model::state(const std::map<std::string, double>& q, const std::map<std::string, double>& v,
                    double t) const {
   return state(from_names(*this, q), from_names(*this, v), t);

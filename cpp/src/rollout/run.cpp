@@ -7,7 +7,7 @@
 namespace saltus {
 namespace {
 
-long count_steps(double duration, const SimulateOptions& options) {
+void check_numbers(double duration, const SimulateOptions& options) {
   std::ostringstream text;
   if (!(options.h > 0) || !std::isfinite(options.h)) {
     text << "h = " << options.h << " s; it must be positive and finite";
@@ -17,6 +17,28 @@ long count_steps(double duration, const SimulateOptions& options) {
     text << "record_every = " << options.record_every << "; it must be at least 1";
   }
   if (!text.str().empty()) throw ModelError(text.str());
+}
+
+/// What is set in options.step and not used must be what is used.
+void check_no_contradiction(const SimulateOptions& options) {
+  const StepOptions &step = options.step, unset;
+  const auto name = [](ImpactLaw law) {
+    return law == ImpactLaw::nodal_energy ? "nodal_energy" : "discrete_energy";
+  };
+  std::ostringstream text;
+  if (step.h != unset.h && step.h != options.h) {
+    text << "step.h = " << step.h << " s, but h = " << options.h << " s";
+  } else if (step.law != unset.law && step.law != options.law) {
+    text << "step.law = " << name(step.law) << ", but law = " << name(options.law);
+  } else if (step.collisions != unset.collisions && step.collisions != options.collisions) {
+    text << "step.collisions = false, but collisions = true";
+  }
+  if (text.str().empty()) return;
+  throw ModelError(text.str() + "; set it in SimulateOptions, whose step is for bounds alone");
+}
+
+long count_steps(double duration, const SimulateOptions& options) {
+  std::ostringstream text;
   const double steps = std::round(duration / options.h);
   if (std::abs(steps * options.h - duration) > 1e-9 * duration) {
     text << "duration = " << duration << " s is no whole number of steps of h = " << options.h
@@ -44,6 +66,8 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
 }  // namespace
 
 Plan make_plan(double duration, const SimulateOptions& options) {
+  check_numbers(duration, options);
+  check_no_contradiction(options);
   Plan plan;
   plan.steps = count_steps(duration, options);
   plan.record_every = options.record_every;

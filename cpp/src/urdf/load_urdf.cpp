@@ -139,7 +139,7 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   const std::string world = is_fixed ? root : unused_name(document, "link", "world");
   const std::string name = attribute(document.robot(), "name");
   ModelBuilder builder(name.empty() ? "model" : name, world);
-  builder.set_gravity(options.gravity).set_source(source.text);
+  builder.set_gravity(options.gravity).set_solver(options.solver).set_source(source.text);
   for (const std::string& warning : warnings) builder.add_warning(warning);
   const MeshFolders folders{source.folder, options.package_dirs};
   located(document, [&] {

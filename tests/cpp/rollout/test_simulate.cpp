@@ -121,5 +121,32 @@ TEST(Simulate, BadDurationsAndStepsAreNamed) {
   EXPECT_NE(message(1, 0.3).find("the nearest is 0.9"), std::string::npos) << message(1, 0.3);
 }
 
+TEST(Simulate, OptionsOfTheStepThatWouldNotBeUsedAreRefused) {
+  const Model model = cradle({.balls = 2});
+  const auto message = [&](const SimulateOptions& options) -> std::string {
+    try {
+      simulate(model, model.state(), 0.02, options);
+    } catch (const ModelError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string cure = "; set it in SimulateOptions, whose step is for bounds alone";
+  // 0.02 s is no whole number of steps of 0.003 s, which is not what is wrong here
+  EXPECT_EQ(message({.step = {.h = 0.003}}), "step.h = 0.003 s, but h = 0.01 s" + cure);
+  EXPECT_EQ(message({.h = 0.02, .step = {.h = 0.005}}), "step.h = 0.005 s, but h = 0.02 s" + cure);
+  EXPECT_EQ(message({.step = {.law = ImpactLaw::discrete_energy}}),
+            "step.law = discrete_energy, but law = nodal_energy" + cure);
+  EXPECT_EQ(message({.step = {.collisions = false}}),
+            "step.collisions = false, but collisions = true" + cure);
+  EXPECT_THROW(simulate_batch(model, std::vector{model.state()}, 0.02,
+                              {.run = {.step = {.collisions = false}}}),
+               ModelError);
+  // what is left alone, or the same, is no contradiction
+  const StepOptions step{.h = 0.005, .law = ImpactLaw::discrete_energy, .collisions = false};
+  EXPECT_EQ(message({.h = step.h, .law = step.law, .collisions = false, .step = step}), "");
+  EXPECT_EQ(message({.h = 0.02, .law = ImpactLaw::discrete_energy, .collisions = false}), "");
+}
+
 }  // namespace
 }  // namespace saltus

@@ -104,6 +104,12 @@ TEST(UrdfLinks, TheRootMayMoveOtherwise) {
   expect_near(pose_of(lift, "cart", {{"root", 2}}).p, {0, 0, 2});
 }
 
+TEST(UrdfLinks, TheSolverIsThatOfTheOptions) {
+  const std::string text = one_joint("continuous");
+  EXPECT_EQ(load(text).solvers()[0].solver, TreeSolver::lu);
+  EXPECT_EQ(load(text, {.solver = TreeSolver::sweep}).solvers()[0].solver, TreeSolver::sweep);
+}
+
 TEST(UrdfLinks, NamesOfTheRootJointAreNew) {
   const std::string text =
       robot(ball_link("world") + ball_link("leg") + joint("root", "continuous", "world", "leg"));

@@ -52,6 +52,14 @@ struct JointInfo {
   std::vector<int> coordinates;  ///< those that move it
 };
 
+/// Trees that are solved together: one, or equal ones side by side in lanes.
+struct TreeSolution {
+  TreeSolver solver;  ///< lu or sweep, never automatic
+  int trees;          ///< as many equal ones as there are, 1 where they share no lanes
+  int joints;         ///< of one coordinate each, of one tree
+  int depth;          ///< joints on the longest path from the root
+};
+
 struct ModelData {
   std::string name;
   Tree tree;
@@ -101,6 +109,7 @@ class SALTUS_EXPORT Model {
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are
   std::string pair_name(int pair) const;          ///< "a ~ b"
+  std::vector<TreeSolution> solvers() const;      ///< how steps solve its trees
 
   /// A copy of this model without any pair: bodies pass through each other.
   Model without_collisions() const;

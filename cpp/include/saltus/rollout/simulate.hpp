@@ -12,16 +12,18 @@ struct SimulateOptions {
   double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
   bool collisions = true;
-  int record_every = 1;   ///< steps between recorded rows; the last is always one
-  StepOptions step = {};  ///< bounds and tolerances; h, law, collisions above win
+  int record_every = 1;  ///< steps between recorded rows; the last is always one
+  /// Bounds and tolerances. Its h, law and collisions are those above: leave them, or set the same.
+  StepOptions step = {};
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.
   std::function<bool(double)> progress = {};
 };
 
 /// Runs round(duration / h) steps from `start`; row 0 is `start`.
-/// @throws ModelError on duration or h not positive and finite, or a duration that is no whole
-///         number of steps (to 1e-9); what Stepper::advance throws.
+/// @throws ModelError on duration or h not positive and finite, a duration that is no whole number
+///         of steps (to 1e-9), h, law or collisions set in options.step otherwise than in options;
+///         what Stepper::advance throws.
 SALTUS_EXPORT Trajectory simulate(const Model& model, const State& start, double duration,
                                   const SimulateOptions& options = {});
 

@@ -38,6 +38,8 @@ struct UrdfOptions {
   /// named "root" (floating, planar, spherical; continuous or prismatic with axis z) below a link
   /// named "world". Underscores are added where the file has these names already.
   JointType root_joint = JointType::fixed;
+  /// How steps solve for velocities, see ModelBuilder::set_solver.
+  TreeSolver solver = TreeSolver::automatic;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).
