@@ -76,7 +76,8 @@ def measure(
             ):
                 times[threads].append(spent)
         for threads in THREADS:
-            rate[threads].append(multiply_adds(program, min(wall[1]), threads))
+            # long enough for the clock, however short the batch
+            rate[threads].append(multiply_adds(program, max(min(wall[1]), 0.05), threads))
     best, most = ({n: f(x[n]) for n in THREADS} for f, x in ((min, wall), (max, rate)))
     scaling, possible = best[1] / best[2], most[2] / most[1]
     return {

@@ -11,7 +11,7 @@ struct Row {
   double *vv, *qq, *vq, *qv;
 };
 
-SALTUS_INLINE Row row_of(SecondPartials& out, int block) {
+SALTUS_INLINE Row row_of(SecondPartials& out, long block) {
   return {out.L_vv[block].x[0], out.L_qq[block].x[0], out.L_vq[block].x[0], out.L_qv[block].x[0]};
 }
 
