@@ -39,7 +39,7 @@ gravity : array_like, shape (3,)
 constexpr auto set_solver = R"(Says how steps solve for velocities, on all trees.
 
 A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
-the depth of each tree; `Model.solvers` tells what became of it.
+the shape of each tree; `Model.solvers` tells what became of it.
 
 Parameters
 ----------

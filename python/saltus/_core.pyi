@@ -206,8 +206,8 @@ class TreeSolver(enum.Enum):
     otherwise for a tree near the border, or to check answers by another way to them.
 
     automatic
-        lu for shallow trees, sweep for those of more than about 20 joints on a path, where the two
-        are about as fast; `Model.solvers` tells what became of it.
+        lu for shallow trees, sweep for deep ones, such as chains of more than some 15 joints (60 where
+        several are equal); `Model.solvers` tells what became of it.
     lu
         Elimination from the leaves, without fill: O(sum of depth^2). Equal trees are solved side by
         side, in lanes of vector instructions.
@@ -1077,7 +1077,7 @@ class ModelBuilder:
         Says how steps solve for velocities, on all trees.
 
         A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
-        the depth of each tree; `Model.solvers` tells what became of it.
+        the shape of each tree; `Model.solvers` tells what became of it.
 
         Parameters
         ----------

@@ -14,7 +14,7 @@ def solvers(model: saltus.Model) -> list[tuple[TreeSolver, int, int, int]]:
     return [(s.solver, s.trees, s.joints, s.depth) for s in model.solvers]
 
 
-def test_automatic_goes_by_depth():
+def test_automatic_goes_by_shape():
     cradle = saltus.load_urdf(saltus.scenes.cradle(3))
     assert solvers(cradle) == [(TreeSolver.lu, 3, 2, 2)]
     assert repr(cradle.solvers) == "[TreeSolution(lu, trees=3, joints=2, depth=2)]"
@@ -84,10 +84,10 @@ def test_info_tells_of_it(tmp_path):
     assert told(saltus.scenes.chain(12)) == "solver: lu (depth 12)"
     assert told(chain_on_a_body(40), "--floating") == "solver: sweep (depth 46)"
     assert told('<robot name="m"><link name="a"/></robot>') == "solver: none, nothing moves"
-    deep = saltus.scenes.chain(30)
+    deep = saltus.scenes.chain(90)
     again = deep.replace("joint_", "joint_b").replace("link_", "link_b")
     joints = again.partition('<link name="frame"/>')[2]
-    assert told(deep.replace("</robot>", joints)) == "solver: 2 x sweep (depth 30)"
+    assert told(deep.replace("</robot>", joints)) == "solver: 2 x sweep (depth 90)"
 
 
 @pytest.mark.parametrize("solver", TreeSolver)

@@ -40,10 +40,10 @@ std::string solvers(const Model& model) {
   return text;
 }
 
-TEST(Solvers, AutomaticGoesByTheDepthOfEachTree) {
+TEST(Solvers, AutomaticGoesByTheShapeOfEachTree) {
   EXPECT_EQ(solvers(chains({2, 30, 2, 3}).build()),
             "lu 2 of 2 deep 2; sweep 1 of 30 deep 30; lu 1 of 3 deep 3; ");
-  EXPECT_EQ(solvers(chains({30, 30}).build()), "sweep 1 of 30 deep 30; sweep 1 of 30 deep 30; ");
+  EXPECT_EQ(solvers(chains({90, 90}).build()), "sweep 1 of 90 deep 90; sweep 1 of 90 deep 90; ");
 }
 
 TEST(Solvers, TheBuilderOverridesThemForAllTrees) {

@@ -48,7 +48,7 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& set_gravity(const Vec3& gravity);
   ModelBuilder& set_source(std::string text);
   /// How steps solve for velocities, on all trees: a matter of speed, answers differ by rounding.
-  /// `automatic` goes by each tree's depth; Model::solvers tells what became of it.
+  /// `automatic` goes by each tree's shape; Model::solvers tells what became of it.
   ModelBuilder& set_solver(TreeSolver solver);
 
   ModelBuilder& add_link(const LinkSpec& link);
