@@ -35,7 +35,7 @@ A matter of speed: answers differ by rounding. Leave it to `automatic`, unless t
 otherwise for a tree near the border, or to check answers by another way to them.
 
 automatic
-    lu for shallow trees, sweep for deep ones, such as chains of more than some 15 joints (60 where
+    lu for shallow trees, sweep for deep ones, such as chains of more than some 15 joints (20 where
     several are equal); `Model.solvers` tells what became of it.
 lu
     Elimination from the leaves, without fill: O(sum of depth^2). Equal trees are solved side by
