@@ -200,7 +200,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         // from the origin the chord tells gaps apart no better than their rounding).
         if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
         tau = f.arc.tau;
-        solved = f.has_rate = true;
+        solved = true;
         break;
       case ImpactTime::missed:
         f.passed[hit.pair] = 1;

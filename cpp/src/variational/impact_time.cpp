@@ -28,6 +28,7 @@ GapAtEnd gap_at_end(const ModelData& model, int index, Flight& f) {
   f.n.setZero();
   add_gap_gradient(model.tree, f.scratch.kin_end, pair, g, f.n);
   arc_rate(model, f.arc, f.scratch, f.rate);
+  f.has_rate = true;
   return {g.phi, f.n.dot(f.arc.v) + f.arc.tau * f.n.dot(f.rate)};
 }
 
@@ -53,6 +54,7 @@ bool refine_at_once(const ModelData& model, const StepOptions& options, int pair
   const ClosingGap gap{pair, longest, f.n, f.rate};
   const bool closed = solve_closing_arc(model, node.q, node.p, options, gap, f.arc, f.scratch);
   f.iterations += f.arc.iterations;
+  f.has_rate = f.has_rate || f.arc.iterations > 0;
   if (!closed) f.arc.v = f.before_v;
   return closed;
 }
@@ -126,6 +128,12 @@ ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, 
                             const Node& node, Flight& f) {
   if (s <= 0) return find_return(model, options, pair, node, f);
   const double tau = f.arc.tau;
+  // most often the velocity of the shorter arc can be told from the arcs before
+  if (f.active == 0 && f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
+    if (refine_at_once(model, options, pair, s * tau, tau, node, f)) return ImpactTime::found;
+    f.arc.v = f.start_v;
+    if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;
+  }
   const bool closed = gap_at_end(model, pair, f).phi < 0;
   f.arc.v += (s - 1) * tau * f.rate;
   return refine(model, options, pair, s * tau, {0, tau, closed}, node, f);
