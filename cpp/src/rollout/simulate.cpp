@@ -1,5 +1,6 @@
 #include "saltus/rollout/simulate.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "rollout/run.hpp"
@@ -13,16 +14,26 @@ class Progress {
   explicit Progress(const std::function<bool(double)>& call) : call_(call) {}
   bool go_on(double done) {
     if (!call_) return true;
+    if (++steps_ < stride_ && done < 1) return true;
     const auto now = Clock::now();
-    if (now - last_ < std::chrono::milliseconds(100) && done < 1) return true;
-    last_ = now;
+    // asking the clock may cost as much as a tenth of a short step: look about once a millisecond
+    if (now - looked_ < std::chrono::milliseconds(1)) {
+      stride_ = std::min(2 * stride_, 1024);
+    } else {
+      stride_ = std::max(stride_ / 2, 1);
+    }
+    looked_ = now;
+    steps_ = 0;
+    if (now - called_ < std::chrono::milliseconds(100) && done < 1) return true;
+    called_ = now;
     return call_(done);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   const std::function<bool(double)>& call_;
-  Clock::time_point last_ = Clock::now();
+  Clock::time_point called_ = Clock::now(), looked_ = called_;
+  int stride_ = 1, steps_ = 0;  ///< steps between looks at the clock, and since the last
 };
 
 }  // namespace
