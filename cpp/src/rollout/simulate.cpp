@@ -16,7 +16,7 @@ class Progress {
     if (!call_) return true;
     if (++steps_ < stride_ && done < 1) return true;
     const auto now = Clock::now();
-    // asking the clock may cost as much as a tenth of a short step: look about once a millisecond
+    // asking the clock costs a hundredth of a short step: look about once a millisecond
     if (now - looked_ < std::chrono::milliseconds(1)) {
       stride_ = std::min(2 * stride_, 1024);
     } else {
