@@ -1,7 +1,17 @@
 // L, its first partials and the generators of its second ones, in lanes (see packed_tree.hpp).
 //
-// The formulas are those of kinematics.hpp and composite.hpp, whose plain loops are the reference
-// that tests compare with.
+// Theory, section 2 (after E. Johnson & T. Murphey, ICRA 2008, with composite quantities in place
+// of the sums over bodies). L(q, v) = T - V, V = -sum m g.c. With W_i = V_i x S_i:
+//
+//   Ic_i = sum of I_k over the subtree      H_i = sum of I_k V_k
+//   U_i  = Ic_i S_i                         F_i = Ic_i W_i + S_i x* H_i
+//   g_i  = [h_i x g ; m_i g]                G_i = [lin(U_i) x g ; 0]   (h_i, m_i of the subtree)
+//
+//   L_v[i]    = S_i.H_i              L_q[i]    = W_i.H_i + S_i.g_i
+//   L_vv[i,j] = S_i.U_j              L_vq[i,j] = S_i.F_j             for i at or above j
+//   L_vq[j,i] = W_i.U_j              L_qq[i,j] = W_i.F_j + S_i.G_j   all other pairs are zero
+//
+// Plain loops of the same formulas, in the tests, are the reference that these are compared with.
 #pragma once
 
 #include "saltus/lagrangian/packed_tree.hpp"

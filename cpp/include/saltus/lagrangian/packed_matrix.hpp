@@ -9,7 +9,11 @@
 //
 // lu      eliminates from the leaves to the root. A joint's equation knows its ancestors only, and
 //         eliminating it touches rows of ancestors only: no fill, O(sum of depth^2).
-// sweep   the recursion of arc_matrix.hpp: one 9x9 matrix carried up a branch, O(n).
+// sweep   carries one 9x9 matrix P up a branch, as the articulated-body recursion does, O(n):
+//
+//   leaf to root:  D = t.(P s + w),  row = t^T P + u^T,  e = r - t.c
+//                  P_parent += P - (P s + w) row / D,    c_parent += c + (P s + w) e / D
+//   root to leaf:  x = (e - row.a_parent) / D,           a = a_parent + s x
 //
 // Mimic joints tie distant branches together; there the dense matrix C^T J C is factored.
 #pragma once

@@ -1,4 +1,4 @@
-// Up passes in lanes: composite quantities of the subtrees and what they make (composite.hpp).
+// Up passes in lanes: composite quantities of the subtrees and what they make (packed.hpp).
 #include "lagrangian/packed/lane.hpp"
 #include "saltus/lagrangian/packed.hpp"
 

@@ -1,4 +1,4 @@
-// The O(n) recursion for deep trees (arc_matrix.hpp has the formulas).
+// The O(n) recursion for deep trees (packed_matrix.hpp has the formulas).
 //
 // Rows of nine numbers are padded to twelve, three wide registers; P and its transpose are carried
 // side by side, so that both P s and t^T P are sums of rows.
