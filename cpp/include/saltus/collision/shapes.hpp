@@ -1,11 +1,11 @@
 // The shapes that can touch. Each is given in its own frame; sizes in metres.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 
-#include "saltus/export.hpp"
-#include "saltus/spatial/spatial.hpp"
+#include "saltus/collision/hull.hpp"
 
 namespace saltus {
 
@@ -27,9 +27,18 @@ struct Cylinder {
 /// The solid z <= 0; its normal is the frame's z axis. Fixed to the world.
 struct HalfSpace {};
 
-using Shape = std::variant<Sphere, Capsule, Box, Cylinder, HalfSpace>;
+/// (x/radii.x)^2 + (y/radii.y)^2 + (z/radii.z)^2 <= 1.
+struct Ellipsoid {
+  Vec3 radii;
+};
+/// Shared between copies; never null in a model.
+struct Convex {
+  std::shared_ptr<const Hull> hull;
+};
 
-/// "sphere", "capsule", "box", "cylinder", "half_space".
+using Shape = std::variant<Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid, Convex>;
+
+/// "sphere", "capsule", "box", "cylinder", "half_space", "ellipsoid", "convex".
 SALTUS_EXPORT std::string shape_name(const Shape& shape);
 
 /// [m] radius of the ball about the shape's origin that holds it; infinity for a half-space.
