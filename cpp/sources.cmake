@@ -23,6 +23,8 @@ set(SALTUS_SOURCES
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
   cpp/src/collision/contact.cpp
+  cpp/src/collision/core.cpp
+  cpp/src/collision/curvature.cpp
   cpp/src/collision/gap.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/sphere_box.cpp

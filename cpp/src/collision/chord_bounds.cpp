@@ -26,25 +26,13 @@
 #include <cmath>
 
 #include "collision/chord_path.hpp"
+#include "collision/core.hpp"
 
 namespace saltus {
 namespace {
 
 /// Makes up for the rounding of these sums, a few units in the 16th digit a joint.
 constexpr double slack = 1 + 1e-12;
-
-/// The ball about its origin that holds a shape's core, and the radius round the core.
-struct Core {
-  double extent, radius;
-};
-
-Core core_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return {0, sphere->radius};
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    return {capsule->half_length, capsule->radius};
-  }
-  return {bounding_radius(shape), 0};
-}
 
 /// Where the next origin towards the shape can be, seen from a joint's frame (a segment: it may
 /// slide on the chord), and the longest path from there on.
@@ -65,7 +53,7 @@ struct Path {
 template <class Iterator, class Visit>
 double walk_branch(const Chord& chord, const PlacedShape& shape, double sign, Iterator k,
                    Iterator end, Visit visit) {
-  Path path{shape.X_JG.p, shape.X_JG.p, core_of(shape.shape).extent};
+  Path path{shape.X_JG.p, shape.X_JG.p, core_extent(shape.shape)};
   for (; k != end && k->sign == sign; ++k) {
     const int l = k->joint;
     const double w = chord.rate(l), x = chord.start(l), h = chord.slide_per_unit(l);
@@ -118,7 +106,7 @@ ChordBounds first_bounds(const Chord& chord) {
   const double length_a = walk_branch_a(chord, add), length_b = walk_branch_b(chord, add);
   // A half-space has no end, but is the world's: only where its frame is matters.
   const double far_b = std::isfinite(length_b) ? length_b : chord.b().X_JG.p.norm();
-  const double radii = core_of(chord.a().shape).radius + core_of(chord.b().shape).radius;
+  const double radii = core_radius(chord.a().shape) + core_radius(chord.b().shape);
   return {mu * slack, 0, 0, length_a + far_b + radii};
 }
 
@@ -129,7 +117,7 @@ void add_higher_bounds(const Chord& chord, double phi, ChordBounds& bounds) {
   if (chord.b_is_sphere()) {
     add_branch_terms(chord, walk_b, 0, bounds);
   } else {
-    const double radii = core_of(chord.a().shape).radius + core_of(chord.b().shape).radius;
+    const double radii = core_radius(chord.a().shape) + core_radius(chord.b().shape);
     const double beyond_b = std::max(phi + bounds.mu, 0.0) + radii;
     walk_b([&](int l, double x, double R) {
       const bool turns = chord.tree.joint[l].turns();

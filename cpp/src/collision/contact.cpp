@@ -27,6 +27,13 @@ Vec3 velocity_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, c
   return k.sign * (angular(S).cross(P) + linear(S));
 }
 
+/// The twist [w; u] of a against b about P for unit speed of one joint of the chain.
+Vec6 twist_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
+  Vec6 t;
+  t << k.sign * angular(kin.joint[k.joint].S), velocity_of(tree, kin, k, P_W);
+  return t;
+}
+
 }  // namespace
 
 std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a) {
@@ -66,16 +73,16 @@ void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
 
 void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
                      Eigen::Ref<MatX> phi_qq) {
+  const Mat6 C = curvature(gap);
   for (std::size_t l = 0; l < pair.chain.size(); ++l) {
     const Drive& drive_l = tree.drive[pair.chain[l].joint];
-    const Vec3 u_l = velocity_of(tree, kin, pair.chain[l], gap.center_W);
-    const Vec3 F_u = gap.F_W * u_l, u_x_n = u_l.cross(gap.n_W);
+    const Vec6 t_l = twist_of(tree, kin, pair.chain[l], gap.center_W);
+    Vec6 C_t = C * t_l;
+    C_t.head<3>() += t_l.tail<3>().cross(gap.n_W);  // n.(w x u) = w.(u x n)
     for (std::size_t i = 0; i <= l; ++i) {
       const ChainJoint& k = pair.chain[i];
       const Drive& drive_i = tree.drive[k.joint];
-      const Vec3 u_i = velocity_of(tree, kin, k, gap.center_W);
-      // n.(w x u) = w.(u x n)
-      const double second = u_i.dot(F_u) + k.sign * angular(kin.joint[k.joint].S).dot(u_x_n);
+      const double second = twist_of(tree, kin, k, gap.center_W).dot(C_t);
       const double value = drive_i.multiplier * drive_l.multiplier * second;
       phi_qq(drive_i.coordinate, drive_l.coordinate) += value;
       if (i < l) phi_qq(drive_l.coordinate, drive_i.coordinate) += value;

@@ -23,7 +23,15 @@ concept HasGap = requires(const A& a, const B& b, const Pose& X) { gap_between(a
 
 Gap exchanged(Gap g) {
   std::swap(g.p_WA, g.p_WB);
+  // P is the point of the other core, d beyond; bends are measured along n
+  g.center_W -= g.d * g.n_W;
   g.n_W = -g.n_W;
+  std::swap(g.a, g.b);
+  for (Patch* patch : {&g.a, &g.b}) {
+    patch->k00 = -patch->k00;
+    patch->k01 = -patch->k01;
+    patch->k11 = -patch->k11;
+  }
   return g;
 }
 
@@ -31,7 +39,7 @@ Gap no_gap() {
   assert(!"gap() of a pair without a gap function");
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Vec3 none = Vec3::Constant(nan);
-  return {nan, none, none, none, none, Mat3::Constant(nan)};
+  return {nan, none, none, none, none, nan, {}, {}};
 }
 
 /// One shape of each kind, of no particular size.

@@ -14,7 +14,7 @@ namespace {
 PointDistance distance_from_face(const Vec3& c, const Vec3& e) {
   int k = 0;
   const double d = e.maxCoeff(&k);
-  return {d, side(c[k]) * Vec3::Unit(k)};
+  return {d, side(c[k]) * Vec3::Unit(k), face_across(k)};
 }
 
 PointDistance distance_from_box(const Vec3& c, const Vec3& half) {

@@ -22,6 +22,7 @@ PointDistance distance_from_segment(const Vec3& c, double half_length) {
 Gap gap_between(const Sphere& a, const Pose& X_WA, const Capsule& b, const Pose& X_WB) {
   PointDistance out = distance_from_segment(in_frame(X_WB, X_WA.p), b.half_length);
   out.d -= b.radius;
+  out.radius = b.radius;
   return sphere_gap(a, X_WA, X_WB, out);
 }
 

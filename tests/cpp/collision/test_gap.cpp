@@ -110,7 +110,7 @@ TEST_P(AllPairs, ExchangeTurnsTheNormalRound) {
     EXPECT_LE((g.n_W + h.n_W).norm(), rounding / length);
     EXPECT_LE((g.p_WA - h.p_WB).norm(), rounding / length);
     EXPECT_LE((g.p_WB - h.p_WA).norm(), rounding / length);
-    EXPECT_LE((g.F_W - h.F_W).norm(), rounding / length * (1 + g.F_W.norm()));
+    EXPECT_LE((F_W(g) - F_W(h)).norm(), rounding / length * (1 + F_W(g).norm()));
   }
 }
 
@@ -125,10 +125,11 @@ TEST_P(AllPairs, MovesWithTheBodies) {
     // rounding of the products, 1e-13 at 1 km, over the least length of a feature
     const double rounding = 1e-15 * x.scale();
     EXPECT_NEAR(g.phi, h.phi, rounding);
-    const double curvature = 1 + g.F_W.norm();
+    const double curvature = 1 + F_W(g).norm();
     EXPECT_LE((X.R * g.n_W - h.n_W).norm(), rounding * curvature);
     EXPECT_LE((X * g.p_WB - h.p_WB).norm(), 2 * rounding * curvature);
-    EXPECT_LE((X.R * g.F_W * X.R.transpose() - h.F_W).norm(), 4 * rounding * curvature * curvature);
+    EXPECT_LE((X.R * F_W(g) * X.R.transpose() - F_W(h)).norm(),
+              4 * rounding * curvature * curvature);
   }
 }
 
@@ -156,14 +157,14 @@ TEST_P(AllPairs, NormalAndCurvatureAreTheDerivativesOfTheGap) {
       const Gap up = x.moved_by(h * Vec3::Unit(i)), down = x.moved_by(-h * Vec3::Unit(i));
       n[i] = (up.phi - down.phi) / (2 * h);
       F.col(i) = (up.n_W - down.n_W) / (2 * h);
-      change = std::max({change, (up.F_W - g.F_W).norm(), (g.F_W - down.F_W).norm()});
+      change = std::max({change, (F_W(up) - F_W(g)).norm(), (F_W(g) - F_W(down)).norm()});
     }
-    const double curvature = g.F_W.norm();
+    const double curvature = F_W(g).norm();
     if (x.scale() > 100 || curvature > 20 || change > 4 * h * (1 + curvature * curvature)) continue;
     ++used;
     // truncation h^2 F^2 of phi, h^2 F^3 of n; rounding of positions (1e-15 at 10 m) over h
     EXPECT_LE((n - g.n_W).norm(), 1e-9 * (1 + curvature * curvature));
-    EXPECT_LE((F - g.F_W).norm(), 1e-9 * (1 + curvature * curvature * curvature));
+    EXPECT_LE((F - F_W(g)).norm(), 1e-9 * (1 + curvature * curvature * curvature));
   }
   EXPECT_GT(used, 350);
 }

@@ -4,7 +4,9 @@
 // out. P on the contact line, both about the reference point O_k of joint k's tree:
 //
 //   phi_q[k]    = s_k S_k.N,  N = [P x n; n]
-//   phi_qq[i,l] = u_i^T F u_l + n.(s_i w_i x u_l),  u_k = s_k (w_k x P + v_k), i at or nearer to b
+//   phi_qq[i,l] = t_i^T C t_l + n.(s_i w_i x u_l),  t_k = s_k [w_k; u_k], u_k = w_k x P + v_k
+//
+// with i at or nearer to b and C of the two features that face each other (gap.hpp).
 #pragma once
 
 #include <vector>

@@ -13,6 +13,7 @@ namespace saltus {
 
 using Vec3 = Eigen::Matrix<double, 3, 1>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
 using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1>;
 using Mat3 = Eigen::Matrix<double, 3, 3>;
 using MatX = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
