@@ -18,14 +18,19 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp
   # collision
+  cpp/src/collision/ball_tree.cpp
   cpp/src/collision/broad_phase.cpp
   cpp/src/collision/chord.cpp
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
   cpp/src/collision/contact.cpp
   cpp/src/collision/core.cpp
+  cpp/src/collision/corners.cpp
+  cpp/src/collision/crossing.cpp
   cpp/src/collision/curvature.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/pair_table.cpp
+  cpp/src/collision/parts.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/sphere_box.cpp
   cpp/src/collision/sphere_capsule.cpp
@@ -48,6 +53,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/flight.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/node.cpp
+  cpp/src/variational/pair_pool.cpp
   cpp/src/variational/stepper.cpp
   # rollout
   cpp/src/rollout/batch.cpp

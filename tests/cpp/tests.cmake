@@ -26,6 +26,7 @@ set(SALTUS_TEST_collision
   collision/test_gap.cpp
   collision/test_gap_degenerate.cpp
   collision/test_no_allocation.cpp
+  collision/test_pair_table.cpp
 )
 set(SALTUS_TEST_model
   model/test_assembly.cpp

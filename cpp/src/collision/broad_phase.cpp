@@ -14,8 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <tuple>
 
 namespace saltus {
 namespace {
@@ -72,7 +70,7 @@ void place_balls(const Tree& tree, const std::vector<PlacedShape>& shapes, const
     bp.center[i] = X_WJ.p + c_W;
     const double motion = j < 0 ? 0 : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W);
     // half the margin a ball: margin a pair
-    const double radius = bounding_radius(shape.shape) + motion + margin / 2;
+    const double radius = bp.size[i] + motion + margin / 2;
     bp.reach[i] = radius + rounding * (bp.center[i].cwiseAbs().maxCoeff() + radius);
     if (!std::isfinite(bp.center[i].sum() + bp.reach[i])) {  // q or dq is not: met by all
       bp.center[i].setZero();
@@ -107,98 +105,97 @@ void sort_by_lower(BroadPhase& bp) {
 }
 
 /// Adds the pairs of two shapes, if there are any.
-void add_candidates(int i, int j, BroadPhase& bp) {
-  const auto [row, shape] = std::minmax(i, j);
-  const auto first = bp.partner.begin() + bp.first_partner[row];
-  const auto end = bp.partner.begin() + bp.first_partner[row + 1];
-  auto found = std::lower_bound(first, end, shape,
-                                [](const BroadPhase::Partner& p, int s) { return p.shape < s; });
-  for (; found != end && found->shape == shape; ++found) bp.candidates.push_back(found->pair);
+void add_candidates(const PairTable& pairs, int i, int j, BroadPhase& bp) {
+  const int count = pairs.count(i, j);
+  if (count == 0) return;
+  const int first = pairs.first(i, j);
+  for (int k = 0; k < count; ++k) bp.candidates.push_back(first + k);
 }
 
-void sweep(BroadPhase& bp) {
+bool balls_meet(const BroadPhase& bp, int i, int j) {
+  const double touching = bp.reach[i] + bp.reach[j];
+  return (bp.center[i] - bp.center[j]).squaredNorm() <= touching * touching;
+}
+
+/// @return false where more balls overlap along the axis than a tree would look at.
+bool sweep(const PairTable& pairs, BroadPhase& bp) {
+  std::size_t looks_left = 16 * bp.order.size();
   for (std::size_t k = 0; k < bp.order.size(); ++k) {
     const int i = bp.order[k];
     const double upper = bp.center[i][bp.axis] + bp.reach[i];
     for (std::size_t m = k + 1; m < bp.order.size() && bp.lower[bp.order[m]] <= upper; ++m) {
+      if (looks_left-- == 0) return false;
       const int j = bp.order[m];
-      const double touching = bp.reach[i] + bp.reach[j];
-      if ((bp.center[i] - bp.center[j]).squaredNorm() <= touching * touching) {
-        add_candidates(i, j, bp);
-      }
+      if (balls_meet(bp, i, j)) add_candidates(pairs, i, j, bp);
     }
   }
+  return true;
+}
+
+/// The sweep, or where it looks at too many pairs, the tree: for some calls without trying.
+void meet_bounded(const PairTable& pairs, BroadPhase& bp) {
+  constexpr int calls = 64;
+  if (bp.rest > 0) {
+    --bp.rest;
+  } else {
+    choose_axis(bp);
+    for (const int i : bp.order) bp.lower[i] = bp.center[i][bp.axis] - bp.reach[i];
+    sort_by_lower(bp);
+    if (sweep(pairs, bp)) return;
+    bp.candidates.clear();
+    bp.rest = calls;
+    build(bp.order, bp.center, bp.tree);
+  }
+  refit(bp.center, bp.reach, bp.tree);
+  for_each_overlap(bp.center, bp.reach, bp.tree,
+                   [&](int i, int j) { add_candidates(pairs, i, j, bp); });
 }
 
 /// Pairs with a half-space z <= 0, which does not move and adds its half of the margin here.
-void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
-                    double margin, BroadPhase& bp) {
+void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes,
+                    const PairTable& pairs, const Kinematics& kin, double margin, BroadPhase& bp) {
   for (const int i : bp.unbounded) {
     const Pose X_WG = kin.X_WJ(tree, shapes[i].joint) * shapes[i].X_JG;
     const double beyond = margin / 2 + rounding * X_WG.p.cwiseAbs().maxCoeff();
-    for (int k = bp.first_partner[i]; k < bp.first_partner[i + 1]; ++k) {
-      const BroadPhase::Partner& partner = bp.partner[k];
-      const Vec3 c = bp.center[partner.shape] - X_WG.p;
-      if (X_WG.R.col(2).dot(c) <= bp.reach[partner.shape] + beyond) {
-        bp.candidates.push_back(partner.pair);
-      }
+    for (const int j : bp.order) {
+      const Vec3 c = bp.center[j] - X_WG.p;
+      if (X_WG.R.col(2).dot(c) <= bp.reach[j] + beyond) add_candidates(pairs, i, j, bp);
     }
   }
 }
 
 }  // namespace
 
-BroadPhase::BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
-                       const std::vector<Pair>& pairs)
-    : first_partner(shapes.size() + 1, 0),
+BroadPhase::BroadPhase(const Tree& model_tree, const std::vector<PlacedShape>& shapes,
+                       const PairTable& pairs)
+    : size(shapes.size()),
       center(shapes.size()),
       reach(shapes.size()),
       lower(shapes.size()),
-      moved(tree.parent.size()),
-      turned(tree.parent.size()) {
-  candidates.reserve(std::min(pairs.size(), most_reserved));
-  // One row a shape: a half-space's own, else that of the smaller index.
-  struct Entry {
-    int row, shape, pair;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(pairs.size());
-  std::vector<bool> used(shapes.size(), false);
-  for (int k = 0; k < static_cast<int>(pairs.size()); ++k) {
-    const auto [low, high] = std::minmax(pairs[k].a, pairs[k].b);
-    const bool high_first = is_unbounded(shapes[high]);
-    entries.push_back({high_first ? high : low, high_first ? low : high, k});
-    used[low] = used[high] = true;
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
-    return std::tie(x.row, x.shape, x.pair) < std::tie(y.row, y.shape, y.pair);
-  });
-  partner.reserve(pairs.size());
-  for (const Entry& entry : entries) {
-    partner.push_back({entry.shape, entry.pair});
-    ++first_partner[entry.row + 1];
-  }
-  std::partial_sum(first_partner.begin(), first_partner.end(), first_partner.begin());
+      moved(model_tree.parent.size()),
+      turned(model_tree.parent.size()) {
+  candidates.reserve(std::min(static_cast<std::size_t>(pairs.size()), most_reserved));
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
-    if (used[i]) (is_unbounded(shapes[i]) ? unbounded : order).push_back(i);
+    size[i] = bounding_radius(shapes[i].shape);
+    if (pairs.is_used(i)) (is_unbounded(shapes[i]) ? unbounded : order).push_back(i);
   }
+  reserve(order.size(), tree);
 }
 
 void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
-                     const Kinematics& kin, const VecRef& dq, double margin, BroadPhase& bp) {
+                     const PairTable& pairs, const Kinematics& kin, const VecRef& dq, double margin,
+                     BroadPhase& bp) {
   bp.candidates.clear();
   bound_joints(tree, kin, dq, bp);
   place_balls(tree, shapes, kin, dq, margin, bp);
-  choose_axis(bp);
-  for (const int i : bp.order) bp.lower[i] = bp.center[i][bp.axis] - bp.reach[i];
-  sort_by_lower(bp);
-  sweep(bp);
-  meet_unbounded(tree, shapes, kin, margin, bp);
+  meet_bounded(pairs, bp);
+  meet_unbounded(tree, shapes, pairs, kin, margin, bp);
   std::sort(bp.candidates.begin(), bp.candidates.end());
 }
 
 void start_anew(BroadPhase& bp) {
   bp.axis = 0;
+  bp.rest = 0;
   std::sort(bp.order.begin(), bp.order.end());
 }
 

@@ -1,4 +1,4 @@
-// How fast the centre P of sphere a can move, as b sees it.
+// How fast the points P of shape a's core can move, as b sees them.
 //
 // Reference: theory, section 4, here to third order. With u_l the velocity of P for unit speed of
 // joint l, and joints i, j <= l in the order from b to a, the derivatives of P in b's frame are
@@ -14,8 +14,8 @@
 //
 // R_l is the reach of joint l: its axis' distance to the next joint's origin and from there the
 // placements one after the other, each at its longest on the chord, to P if l is on a's branch.
-// On b's branch the path ends at b's core (the point or segment that a round shape is swept about,
-// the whole of another), and P is no farther from it than phi + the radii.
+// On b's branch the path ends at b's core, and P is no farther from it than phi, the radii and a's
+// core across.
 //
 // Where b is a sphere, P is seen from its centre with the directions of the common ancestor: each
 // branch moves its own centre, in the order from the ancestor to the shape, and the sums add.
@@ -51,7 +51,7 @@ struct Path {
 /// Calls visit(l, x_l, R_l) for each joint of the branch that carries `shape`, from the shape up.
 /// Returns the longest path from the common ancestor to the shape's core.
 template <class Iterator, class Visit>
-double walk_branch(const Chord& chord, const PlacedShape& shape, double sign, Iterator k,
+double walk_branch(const Chord& chord, const Placed& shape, double sign, Iterator k,
                    Iterator end, Visit visit) {
   Path path{shape.X_JG.p, shape.X_JG.p, core_extent(shape.shape)};
   for (; k != end && k->sign == sign; ++k) {
@@ -118,7 +118,8 @@ void add_higher_bounds(const Chord& chord, double phi, ChordBounds& bounds) {
     add_branch_terms(chord, walk_b, 0, bounds);
   } else {
     const double radii = core_radius(chord.a().shape) + core_radius(chord.b().shape);
-    const double beyond_b = std::max(phi + bounds.mu, 0.0) + radii;
+    const double across_a = 2 * core_extent(chord.a().shape);
+    const double beyond_b = std::max(phi + bounds.mu, 0.0) + radii + across_a;
     walk_b([&](int l, double x, double R) {
       const bool turns = chord.tree.joint[l].turns();
       add_joint_terms(chord, l, x, turns ? R + beyond_b : R, before_a, bounds);

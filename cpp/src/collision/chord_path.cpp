@@ -1,4 +1,4 @@
-// Walks from a to b: the exact point with two derivatives, without any matrix of a pose.
+// Walks from a to b: exact points with two derivatives, without any matrix of a pose.
 //
 // A joint with displacement x(s) = x0 + s w takes a point p of its own frame to its parent's by
 //
@@ -11,9 +11,16 @@
 #include <cmath>
 
 #include "collision/chord_path.hpp"
+#include "saltus/collision/parts.hpp"
 
 namespace saltus {
 namespace {
+
+/// Of parts that go on beyond their ends, what is convex: edges as they are, without sides.
+Gap chord_gap(const Pair& pair, const Pose& X_BA) {
+  if (pair.kind == PairKind::crossing) return gap(pair.on_a.shape, X_BA, pair.on_b.shape, {});
+  return part_gap(pair, X_BA, {});
+}
 
 struct MovingPoint {
   Vec3 p, v, a;  ///< [m] the point and its first and second derivative by s
@@ -53,39 +60,89 @@ void go_down(const Chord& chord, int joint, double s, MovingPoint& P) {
   if (chord.tree.joint[joint].turns()) turn(P, -x, -w);
 }
 
-/// A shape's origin in the frame of the common ancestor; `k` runs over its branch, leaf first.
+/// The origin of a shape's frame and the points one along each of its axes.
+struct MovingFrame {
+  MovingPoint point[4];
+  int count;  ///< 1: the origin alone
+};
+
+MovingFrame frame_of(const Placed& shape, int count) {
+  const Vec3 zero = Vec3::Zero();
+  MovingFrame F{{}, count};
+  F.point[0] = {shape.X_JG.p, zero, zero};
+  for (int k = 1; k < count; ++k) {
+    F.point[k] = {shape.X_JG.p + shape.X_JG.R.col(k - 1), zero, zero};
+  }
+  return F;
+}
+
+/// From a shape's joint to the frame of the common ancestor; `k` runs over its branch, leaf first.
 template <class Iterator>
-MovingPoint rise(const Chord& chord, const PlacedShape& shape, double sign, double s, Iterator k,
-                 Iterator end) {
-  MovingPoint P{shape.X_JG.p, Vec3::Zero(), Vec3::Zero()};
-  for (; k != end && k->sign == sign; ++k) go_up(chord, k->joint, s, P);
-  return P;
+void rise(const Chord& chord, double sign, double s, Iterator k, Iterator end, MovingFrame& F) {
+  for (; k != end && k->sign == sign; ++k) {
+    for (int i = 0; i < F.count; ++i) go_up(chord, k->joint, s, F.point[i]);
+  }
 }
 
 /// From the frame of the common ancestor to that of shape b.
-MovingPoint descend_to_b(const Chord& chord, double s, MovingPoint P) {
+void descend_to_b(const Chord& chord, double s, MovingFrame& F) {
   const std::vector<ChainJoint>& chain = chord.pair.chain;
   for (auto k = chain.rbegin(); k != chain.rend(); ++k) {
-    if (k->sign < 0) go_down(chord, k->joint, s, P);
+    if (k->sign > 0) continue;
+    for (int i = 0; i < F.count; ++i) go_down(chord, k->joint, s, F.point[i]);
   }
   const Pose& X_JB = chord.b().X_JG;
   const Mat3 R_BJ = X_JB.R.transpose();
-  return {R_BJ * (P.p - X_JB.p), R_BJ * P.v, R_BJ * P.a};
+  for (int i = 0; i < F.count; ++i) {
+    MovingPoint& P = F.point[i];
+    P = {R_BJ * (P.p - X_JB.p), R_BJ * P.v, R_BJ * P.a};
+  }
+}
+
+/// The frame of a's part as b sees it.
+MovingFrame see_a(const Chord& chord, double s) {
+  const std::vector<ChainJoint>& chain = chord.pair.chain;
+  MovingFrame F = frame_of(chord.a(), chord.a_is_ball() ? 1 : 4);
+  rise(chord, +1, s, chain.rbegin(), chain.rend(), F);
+  if (!chord.b_is_sphere()) {
+    descend_to_b(chord, s, F);
+    return F;
+  }
+  MovingFrame b = frame_of(chord.b(), 1);
+  rise(chord, -1, s, chain.begin(), chain.end(), b);
+  const MovingPoint& B = b.point[0];
+  for (int i = 0; i < F.count; ++i) {
+    MovingPoint& P = F.point[i];
+    P = {P.p - B.p, P.v - B.v, P.a - B.a};
+  }
+  return F;
 }
 
 }  // namespace
 
 ChordSample sample_chord(const Chord& chord, double s) {
-  const std::vector<ChainJoint>& chain = chord.pair.chain;
-  MovingPoint P = rise(chord, chord.a(), +1, s, chain.rbegin(), chain.rend());
-  if (chord.b_is_sphere()) {
-    const MovingPoint B = rise(chord, chord.b(), -1, s, chain.begin(), chain.end());
-    P = {P.p - B.p, P.v - B.v, P.a - B.a};
-  } else {
-    P = descend_to_b(chord, s, P);
+  const MovingFrame F = see_a(chord, s);
+  const MovingPoint& o = F.point[0];
+  Pose X_BA{Mat3::Identity(), o.p};
+  for (int k = 1; k < F.count; ++k) X_BA.R.col(k - 1) = F.point[k].p - o.p;
+  const Gap g = chord_gap(chord.pair, X_BA);
+  ChordSample out{};
+  Heights& h = out.heights;
+  const Vec3& n = g.n_W;
+  for (Vec3& m : h.m) m.setZero();
+  h.c[0] = n.dot(o.p);
+  h.c[1] = n.dot(o.v);
+  h.c[2] = n.dot(o.a);
+  for (int k = 1; k < F.count; ++k) {
+    const MovingPoint& P = F.point[k];
+    h.m[0][k - 1] = n.dot(P.p - o.p);
+    h.m[1][k - 1] = n.dot(P.v - o.v);
+    h.m[2][k - 1] = n.dot(P.a - o.a);
   }
-  const Gap g = gap(chord.a().shape, {Mat3::Identity(), P.p}, chord.b().shape, {});
-  return {g.phi, g.n_W.dot(P.v), g.n_W.dot(P.a)};
+  out.phi = g.phi;
+  const Vec3 P_A = X_BA.R.transpose() * (g.center_W - o.p);
+  out.rate = h.c[1] + h.m[1].dot(P_A);
+  return out;
 }
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// The centre P of sphere a as b sees it, along a chord q(s) = q + s dq.
+// The core of shape a as b sees it, along a chord q(s) = q + s dq.
 //
 // Seen from a frame in which b's solid is at rest: b's own; but where b is a sphere, one that goes
 // with its centre and keeps the directions of the joint frame above both branches. So two balls
@@ -12,14 +12,17 @@ namespace saltus {
 /// What the functions of a chord are about; refers to the caller's data.
 struct Chord {
   const Tree& tree;
-  const std::vector<PlacedShape>& shapes;
   const Pair& pair;
   const VecRef& q;
   const VecRef& dq;
 
-  const PlacedShape& a() const { return shapes[pair.a]; }
-  const PlacedShape& b() const { return shapes[pair.b]; }
+  const Placed& a() const { return pair.on_a; }
+  const Placed& b() const { return pair.on_b; }
   bool b_is_sphere() const { return std::holds_alternative<Sphere>(b().shape); }
+  /// A ball's directions do not matter: it is not asked how it turns.
+  bool a_is_ball() const {
+    return std::holds_alternative<Sphere>(a().shape) && pair.out_a.isZero(0);
+  }
   double start(int joint) const {  ///< [rad | m] displacement of a joint at s = 0
     const Drive& drive = tree.drive[joint];
     return drive.multiplier * q[drive.coordinate] + drive.offset;
@@ -34,11 +37,18 @@ struct Chord {
   }
 };
 
+/// n.x for the points x of a's core near one s, where n stays as it is there: x = o + R y with y in
+/// a's frame, n.x(s + d) = c[0] + m[0].y + (c[1] + m[1].y) d + (c[2] + m[2].y) d^2/2 + ...
+struct Heights {
+  double c[3];
+  Vec3 m[3];
+};
+
 /// The gap at one s.
 struct ChordSample {
-  double phi;   ///< [m]
-  double rate;  ///< [m] phi' = n.P'
-  double bend;  ///< [m] n.P'': phi'' is this plus P'.F P' >= 0
+  double phi;       ///< [m]
+  double rate;      ///< [m] phi' = n.P', P the point of a's core on the contact line
+  Heights heights;  ///< m = 0 where a is a ball: its core is y = 0
 };
 
 ChordSample sample_chord(const Chord& chord, double s);
@@ -46,8 +56,8 @@ ChordSample sample_chord(const Chord& chord, double s);
 /// Bounds on the motion over the whole chord.
 struct ChordBounds {
   double mu;      ///< [m] |phi'| <= mu
-  double B;       ///< [m] |P''| <= B
-  double C;       ///< [m] |P'''| <= C
+  double B;       ///< [m] |x''| <= B for every point x of a's core
+  double C;       ///< [m] |x'''| <= C
   double length;  ///< [m] greatest coordinate that the walk from a to b meets
 };
 

@@ -1,5 +1,7 @@
 #include "saltus/collision/contact.hpp"
 
+#include "saltus/collision/parts.hpp"
+
 #include <algorithm>
 
 namespace saltus {
@@ -12,7 +14,7 @@ Vec3 reference_point(const Tree& tree, const Kinematics& kin, int joint) {
 
 /// Pose of a shape with the origin moved to `origin_W`. `kin` holds positions from each tree's O,
 /// so two shapes of one tree keep all digits however far away it is.
-Pose pose_from(const Tree& tree, const Kinematics& kin, const PlacedShape& shape,
+Pose pose_from(const Tree& tree, const Kinematics& kin, const Placed& shape,
                const Vec3& origin_W) {
   if (shape.joint < 0) return {shape.X_JG.R, shape.X_JG.p - origin_W};
   const JointMotion& m = kin.joint[shape.joint];
@@ -51,15 +53,21 @@ std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a
   return chain;
 }
 
-Gap pair_gap(const Tree& tree, const Kinematics& kin, const std::vector<PlacedShape>& shapes,
-             const Pair& pair) {
-  const PlacedShape &a = shapes[pair.a], &b = shapes[pair.b];
+Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
+  const Placed &a = pair.on_a, &b = pair.on_b;
   const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
-  Gap g = gap(a.shape, pose_from(tree, kin, a, origin), b.shape, pose_from(tree, kin, b, origin));
+  Gap g = part_gap(pair, pose_from(tree, kin, a, origin), pose_from(tree, kin, b, origin));
   g.p_WA += origin;
   g.p_WB += origin;
   g.center_W += origin;
   return g;
+}
+
+bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap) {
+  if (pair.kind == PairKind::whole && !pair.skips_corners) return false;
+  const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin
+  return is_silent(pair, pose_from(tree, kin, pair.on_a, none),
+                   pose_from(tree, kin, pair.on_b, none), gap);
 }
 
 void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,

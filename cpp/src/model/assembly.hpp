@@ -56,8 +56,7 @@ class Assembly {
   // pairs.cpp
   void add_shapes();
   void add_pairs();
-  bool is_adjacent(int link_a, int link_b) const;
-  bool is_watched(const PlacedShape& a, const PlacedShape& b) const;
+  std::vector<std::pair<int, int>> adjacent_links() const;
 
   const ModelBuilder& b_;
   ModelData m_;

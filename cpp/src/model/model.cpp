@@ -1,6 +1,7 @@
 #include "saltus/model/model.hpp"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "saltus/lagrangian/packed_matrix.hpp"
@@ -67,8 +68,16 @@ int Model::coordinate(const std::string& name) const {
 int Model::link(const std::string& name) const { return index_of(data_->links, "link", name); }
 
 std::string Model::pair_name(int pair) const {
-  const Pair& p = data_->pairs.at(static_cast<std::size_t>(pair));
-  return data_->shapes[p.a].name + " ~ " + data_->shapes[p.b].name;
+  return saltus::pair_name(data_->shapes, this->pair(pair));
+}
+
+Pair Model::pair(int pair) const {
+  if (pair < 0 || pair >= data_->pairs.size()) {
+    throw ModelError("no pair " + std::to_string(pair) + "; the model has " +
+                     std::to_string(data_->pairs.size()));
+  }
+  const PairTable::Key key = data_->pairs.key(pair);
+  return make_pair(data_->tree, data_->shapes, key.a, key.b, key.part);
 }
 
 std::vector<TreeSolution> Model::solvers() const {
@@ -142,37 +151,48 @@ Pose Model::X_WL(const VecRef& q, int link) const {
   return kin.X_WJ(data_->tree, l.joint) * l.X_JL;
 }
 
+namespace {
+constexpr double most_dense = 134e6;  ///< numbers in 1 GiB
+}  // namespace
+
 Gaps Model::gaps(const VecRef& q) const {
   check_vector(q, n_q(), "q");
   const ModelData& m = *data_;
   Kinematics kin(m.tree);
   set_configuration(m.tree, q, kin);
   const auto rows = static_cast<Eigen::Index>(m.pairs.size());
+  if (static_cast<double>(rows) * (n_q() + 2.0) * n_q() > most_dense) {
+    throw ModelError("gaps of " + std::to_string(rows) + " pairs with Hessians of " +
+                     std::to_string(n_q()) + " coordinates take more than 1 GiB; " +
+                     "take pair(k) and pair_gap one by one");
+  }
   Gaps out;
   out.phi.resize(rows);
   out.phi_q.setZero(rows, n_q());
-  out.phi_qq.assign(m.pairs.size(), MatX::Zero(n_q(), n_q()));
+  out.phi_qq.assign(static_cast<std::size_t>(rows), MatX::Zero(n_q(), n_q()));
   out.normal.resize(rows, 3);
   out.p_WA.resize(rows, 3);
   out.p_WB.resize(rows, 3);
   for (int i = 0; i < rows; ++i) {
-    const Gap g = pair_gap(m.tree, kin, m.shapes, m.pairs[i]);
-    out.names.push_back(pair_name(i));
-    out.phi[i] = g.phi;
+    const Pair pair = this->pair(i);
+    const Gap g = pair_gap(m.tree, kin, pair);
+    const bool silent = is_silent(m.tree, kin, pair, g);
+    out.names.push_back(saltus::pair_name(m.shapes, pair));
+    out.phi[i] = silent ? std::numeric_limits<double>::infinity() : g.phi;
     out.normal.row(i) = g.n_W;
     out.p_WA.row(i) = g.p_WA;
     out.p_WB.row(i) = g.p_WB;
     VecX row = VecX::Zero(n_q());
-    add_gap_gradient(m.tree, kin, m.pairs[i], g, row);
+    if (!silent) add_gap_gradient(m.tree, kin, pair, g, row);
     out.phi_q.row(i) = row;
-    add_gap_hessian(m.tree, kin, m.pairs[i], g, out.phi_qq[i]);
+    if (!silent) add_gap_hessian(m.tree, kin, pair, g, out.phi_qq[i]);
   }
   return out;
 }
 
 Model Model::without_collisions() const {
   ModelData copy = *data_;
-  copy.pairs.clear();
+  copy.pairs = {};
   return Model(std::move(copy));
 }
 

@@ -44,6 +44,8 @@ struct SizeOfShape {
   Vec3 operator()(const Box& b) const { return b.half; }
   Vec3 operator()(const Cylinder& c) const { return {c.radius, c.radius, c.half_length}; }
   Vec3 operator()(const HalfSpace&) const { return Vec3::Ones(); }
+  Vec3 operator()(const Ellipsoid& e) const { return e.radii; }
+  Vec3 operator()(const Convex&) const { return Vec3::Ones(); }
 };
 
 }  // namespace

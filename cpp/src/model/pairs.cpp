@@ -25,50 +25,42 @@ void Assembly::add_shapes() {
 
 // Links on both sides of one joint overlap at it by design. A free or planar joint is no such
 // place, and a half-space is a floor to be fallen on.
-bool Assembly::is_adjacent(int link_a, int link_b) const {
-  const auto hangs_on = [&](int child, int parent) {
-    const int joint = parent_joint_[group_[child]];
-    if (joint < 0) return false;
+std::vector<std::pair<int, int>> Assembly::adjacent_links() const {
+  std::map<int, std::vector<int>> welded;  // links by the first of those welded together
+  for (int i = 0; i < static_cast<int>(group_.size()); ++i) welded[group_[i]].push_back(i);
+  std::vector<std::pair<int, int>> out;
+  for (const auto& [first, links] : welded) {
+    const int joint = parent_joint_[first];
+    if (joint < 0) continue;
     const JointSpec& spec = b_.joints_[joint];
-    if (spec.type == JointType::floating || spec.type == JointType::planar) return false;
-    return group_[link_.at(spec.parent)] == group_[parent];
-  };
-  return hangs_on(link_a, link_b) || hangs_on(link_b, link_a);
-}
-
-bool Assembly::is_watched(const PlacedShape& a, const PlacedShape& b) const {
-  if (a.joint == b.joint || excluded_.count(std::minmax(a.link, b.link)) > 0) return false;
-  const bool floor =
-      std::holds_alternative<HalfSpace>(a.shape) || std::holds_alternative<HalfSpace>(b.shape);
-  return floor || !is_adjacent(a.link, b.link);
-}
-
-void Assembly::add_pairs() {
-  std::map<std::string, std::vector<std::string>> unsupported;
-  const int n = static_cast<int>(m_.shapes.size());
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      const PlacedShape &a = m_.shapes[i], &b = m_.shapes[j];
-      if (!is_watched(a, b)) continue;
-      if (!has_gap(a.shape, b.shape)) {
-        std::string kind_a = shape_name(a.shape), kind_b = shape_name(b.shape);
-        if (kind_b < kind_a) std::swap(kind_a, kind_b);
-        unsupported[kind_a + "-" + kind_b].push_back(a.name + " ~ " + b.name);
-        continue;
-      }
-      const bool swap = !std::holds_alternative<Sphere>(a.shape);
-      Pair pair{swap ? j : i, swap ? i : j, {}, 0};
-      pair.chain = chain_between(m_.tree, m_.shapes[pair.b].joint, m_.shapes[pair.a].joint);
-      // epsilon_phi: 1e-10 of the smaller shape is far above the rounding of positions (1e-16 of
-      // the scene) and far below what anybody can see
-      pair.touch = 1e-10 * std::min(feature_size(a.shape), feature_size(b.shape));
-      m_.pairs.push_back(std::move(pair));
+    if (spec.type == JointType::floating || spec.type == JointType::planar) continue;
+    for (const int parent : welded[group_[link_.at(spec.parent)]]) {
+      for (const int child : links) out.emplace_back(parent, child);
     }
   }
-  for (const auto& [kinds, names] : unsupported) {
-    m_.warnings.push_back("no gap function for " + kinds +
-                          " pairs; these pass through each other: " + list_names(names));
+  return out;
+}
+
+// Shapes are sorted by link, so that the few links next to each are looked at, not all pairs.
+void Assembly::add_pairs() {
+  std::map<int, std::vector<int>> on_link;
+  for (int i = 0; i < static_cast<int>(m_.shapes.size()); ++i) {
+    on_link[m_.shapes[i].link].push_back(i);
   }
+  PairRules rules;
+  rules.group.assign(m_.shapes.size(), 0);
+  const auto exclude = [&](int link_a, int link_b, bool floors) {
+    for (const int i : on_link[link_a]) {
+      for (const int j : on_link[link_b]) {
+        const bool floor = std::holds_alternative<HalfSpace>(m_.shapes[i].shape) ||
+                           std::holds_alternative<HalfSpace>(m_.shapes[j].shape);
+        if (floors || !floor) rules.excluded.emplace_back(i, j);
+      }
+    }
+  };
+  for (const auto& [a, b] : excluded_) exclude(a, b, true);
+  for (const auto& [a, b] : adjacent_links()) exclude(a, b, false);
+  m_.pairs = PairTable(m_.shapes, rules);
 }
 
 }  // namespace saltus

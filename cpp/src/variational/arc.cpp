@@ -58,9 +58,8 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
                   ArcScratch& s) {
   c.row.setZero();
   if (c.kind == ArcConstraint::Kind::hold) {
-    const Pair& pair = model.pairs[c.pair];
-    const Gap g = pair_gap_at_end(model, pair, s);
-    add_gap_gradient(model.tree, s.kin_end, pair, g, c.row);
+    const Gap g = pair_gap_at_end(model, *c.pair, s);
+    add_gap_gradient(model.tree, s.kin_end, *c.pair, g, c.row);
     return (g.phi - c.target) / a.tau;
   }
   // dE_d/dv = L_vv v + tau/2 (L_vq^T v - L_q); w has v as its rates, and L_vv v = L_v
@@ -103,10 +102,9 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
   place_end(model, s.x, s);
   for (const ArcConstraint& c : a.constraints) {
     if (c.kind == ArcConstraint::Kind::hold) {
-      const Pair& pair = model.pairs[c.pair];
-      const double phi = pair_gap_at_end(model, pair, s).phi;
+      const double phi = pair_gap_at_end(model, *c.pair, s).phi;
       // 1e-12: a hundredth of pair.touch is closed
-      size = std::max(size, std::abs(phi - c.target) / pair.touch * 1e-12);
+      size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);
     } else {
       const double energy = discrete_energy(model, v, s);
       size = std::max(size,
@@ -166,11 +164,11 @@ Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
   for (const ChainJoint& k : pair.chain) {
     copy_pose(model.tree, model.packed, s.w_end, k.joint, s.kin_end);
   }
-  for (const int shape : {pair.a, pair.b}) {  // one may hang on the joint where the chain turns
-    const int joint = model.shapes[shape].joint;
+  for (const Placed* part : {&pair.on_a, &pair.on_b}) {  // one may hang where the chain turns
+    const int joint = part->joint;
     if (joint >= 0) copy_pose(model.tree, model.packed, s.w_end, joint, s.kin_end);
   }
-  return pair_gap(model.tree, s.kin_end, model.shapes, pair);
+  return pair_gap(model.tree, s.kin_end, pair);
 }
 
 bool is_converged(double residual, double before) {

@@ -28,7 +28,8 @@ namespace saltus {
 struct ArcConstraint {
   enum class Kind { hold, launch };
   Kind kind = Kind::hold;
-  int pair = -1;      ///< index in model.pairs (hold)
+  int place = -1;              ///< of the pair in the stepper's pool (hold)
+  const Pair* pair = nullptr;  ///< likewise
   double target = 0;  ///< [m] or [J]
   double lambda = 0;  ///< [N s] guess in, solution out
   VecX n;             ///< (n_q) direction of the force

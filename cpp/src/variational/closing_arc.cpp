@@ -7,9 +7,8 @@ namespace saltus {
 namespace {
 
 /// phi at the end of the arc (q, v, tau); its gradient in `n`.
-double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v, int index,
-                  ArcScratch& s, VecX& n) {
-  const Pair& pair = model.pairs[index];
+double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v,
+                  const Pair& pair, ArcScratch& s, VecX& n) {
   s.x = a.q + a.tau * v;
   place_end(model, s.x, s);
   const Gap gap = pair_gap_at_end(model, pair, s);
@@ -40,7 +39,7 @@ bool improve(const ModelData& model, const ArcProblem& a, double phi, const Clos
 bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
                        const StepOptions& options, const ClosingGap& gap, Arc& arc, ArcScratch& s) {
   constexpr int most_iterations = 8;  // quadratic from a good guess: 2 to 4
-  const double touch = model.pairs[gap.pair].touch;
+  const double touch = gap.pair.touch;
   double before = std::numeric_limits<double>::infinity(), phi_before = before;
   for (arc.iterations = 0; arc.iterations <= most_iterations; ++arc.iterations) {
     const ArcProblem a{q, p, arc.tau, {}};

@@ -16,7 +16,7 @@ namespace saltus {
 
 /// Where the gap is at the end of an arc.
 struct ClosingGap {
-  int pair;
+  const Pair& pair;
   double longest;  ///< [s] the arc may not be longer
   VecX& n;         ///< (n_q) scratch: phi_q there
   VecX& rate;      ///< (n_q) written: v'

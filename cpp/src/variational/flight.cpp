@@ -8,10 +8,10 @@
 namespace saltus {
 namespace {
 
-ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int pair, double target) {
+ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target) {
   ArcConstraint& c = f.constraints[f.active++];
   c.kind = kind;
-  c.pair = pair;
+  c.place = place;
   c.target = target;
   c.lambda = 0;
   return c;
@@ -21,6 +21,7 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int pair, do
 bool hold(int pair, Node& node, Flight& f) {
   if (f.active == most_constraints) return false;
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
+  c.pair = &node.pool[pair];
   c.n.setZero();
   add(node.trees, 1, node.contacts[node.contact_of[pair]].n, c.n);
   node.held[pair] = 1;
@@ -28,7 +29,7 @@ bool hold(int pair, Node& node, Flight& f) {
 }
 
 void release(int i, Node& node, Flight& f) {
-  node.held[f.constraints[i].pair] = 0;
+  node.held[f.constraints[i].place] = 0;
   std::swap(f.constraints[i], f.constraints[f.active - 1]);
   --f.active;
 }
@@ -47,10 +48,10 @@ bool start_constraints(Node& node, Flight& f) {
 }
 
 /// The gap below which a pair that rests at the node is pressed: it may not sink any further.
-double floor_of(const ModelData& model, const Node& node, int pair) {
-  const double touch = model.pairs[pair].touch;
+double floor_of(const Node& node, int pair) {
   const int contact = node.contact_of[pair];
-  return (contact < 0 ? 0 : std::min(0.0, node.contacts[contact].phi)) - touch;
+  const double phi = contact < 0 ? node.sunk[pair] : node.contacts[contact].phi;
+  return std::min(0.0, phi) - node.pool[pair].touch;
 }
 
 enum class Holds { unchanged, changed, too_many };
@@ -60,8 +61,8 @@ enum class Holds { unchanged, changed, too_many };
 Holds update_holds(const ModelData& model, Node& node, Flight& f) {
   for (int i = 0; i < f.active; ++i) {
     const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || c.lambda >= 0 || f.flips[c.pair] >= 2) continue;
-    ++f.flips[c.pair];
+    if (c.kind != ArcConstraint::Kind::hold || c.lambda >= 0 || f.flips[c.place] >= 2) continue;
+    ++f.flips[c.place];
     release(i, node, f);
     return Holds::changed;
   }
@@ -71,12 +72,24 @@ Holds update_holds(const ModelData& model, Node& node, Flight& f) {
     if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
     if (!placed) place_end(model, f.arc.q_end, f.scratch);
     placed = true;
-    const Gap g = pair_gap_at_end(model, model.pairs[c.pair], f.scratch);
-    if (g.phi >= floor_of(model, node, c.pair)) continue;
+    const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
+    if (g.phi >= floor_of(node, c.pair)) continue;
     if (!hold(c.pair, node, f)) return Holds::too_many;
     changed = true;
   }
   return changed ? Holds::changed : Holds::unchanged;
+}
+
+/// A pair met for the first time in this flight.
+void fit(int pairs, Flight& f) {
+  if (static_cast<int>(f.passed.size()) >= pairs) return;
+  f.passed.resize(static_cast<std::size_t>(pairs), 0);
+  f.flips.resize(static_cast<std::size_t>(pairs), 0);
+}
+
+bool is_clear_on_chord(const ModelData& model, const Pair& solid, const Node& node) {
+  const ChordHit hit = first_hit_on_chord(model.tree, solid, node.q, node.dq, 0);
+  return hit.outcome == ChordHit::Outcome::clear;
 }
 
 struct FirstHit {
@@ -96,11 +109,19 @@ FirstHit first_hit(const ModelData& model, Node& node, Flight& f) {
   if (model.pairs.empty()) return first;
   node.dq = f.arc.tau * f.arc.v;
   double margin = 0;
-  find_candidates(model.tree, model.shapes, node.kin, node.dq, margin, f.broad);
-  for (const int pair : f.broad.candidates) {
-    if (!is_watched(node, f, pair)) continue;
-    const ChordHit hit = first_hit_on_chord(model.tree, model.shapes, model.pairs[pair], node.q,
-                                            node.dq, floor_of(model, node, pair));
+  find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, margin, f.broad);
+  const Pair* solid = nullptr;
+  bool is_clear = false;
+  for (const int number : f.broad.candidates) {
+    const int pair = place_of(model, number, node);
+    fit(node.pool.size(), f);
+    if (node.pool.solid(pair) != solid) {  // no part is nearer than the whole
+      solid = node.pool.solid(pair);
+      is_clear = solid != nullptr && is_clear_on_chord(model, *solid, node);
+    }
+    if (is_clear || !is_watched(node, f, pair)) continue;
+    const ChordHit hit = first_hit_on_chord(model.tree, node.pool[pair], node.q, node.dq,
+                                            floor_of(node, pair));
     if (hit.outcome != ChordHit::Outcome::clear && hit.s < first.s) first = {pair, hit.s};
   }
   return first;
@@ -158,9 +179,7 @@ Flight::Flight(const ModelData& model)
     : history(model.tree.coordinates),
       scratch(model),
       broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints),
-      passed(model.pairs.size(), 0),
-      flips(model.pairs.size(), 0) {
+      constraints(most_constraints) {
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (ArcConstraint& c : constraints) {
@@ -170,6 +189,7 @@ Flight::Flight(const ModelData& model)
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& f, bool& fallback) {
+  fit(node.pool.size(), f);
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
   f.active = 0;
@@ -179,7 +199,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   bool solved = true;
   f.has_rate = false;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
-  const int most_turns = 10 + 4 * static_cast<int>(model.pairs.size());
+  const int most_turns = 10 + 4 * node.pool.size();
   for (int turn = 0; turn < most_turns; ++turn) {
     if (!solved && !solve_flight_arc(model, options, tau, node, f)) {
       return FlightOutcome::not_converged;

@@ -23,7 +23,7 @@ struct Flight {
 
   Arc arc;  ///< the result
   GuessHistory history;
-  int closing = -1;       ///< pair whose impact was sought last
+  int closing = -1;       ///< place of the pair whose impact was sought last
   int iterations = 0;     ///< Newton iterations of all arcs tried
   bool has_rate = false;  ///< `rate` is v' of the arc, which ends where a gap closes
 

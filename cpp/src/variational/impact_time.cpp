@@ -15,14 +15,13 @@ struct GapAtEnd {
   double slope;
 };
 
-double phi_at_end(const ModelData& model, int pair, Flight& f) {
+double phi_at_end(const ModelData& model, const Pair& pair, Flight& f) {
   place_end(model, f.arc.q_end, f.scratch);
-  return pair_gap_at_end(model, model.pairs[pair], f.scratch).phi;
+  return pair_gap_at_end(model, pair, f.scratch).phi;
 }
 
 /// Also writes flight.rate = v'(tau), the next guess's slope.
-GapAtEnd gap_at_end(const ModelData& model, int index, Flight& f) {
-  const Pair& pair = model.pairs[index];
+GapAtEnd gap_at_end(const ModelData& model, const Pair& pair, Flight& f) {
   place_end(model, f.arc.q_end, f.scratch);
   const Gap g = pair_gap_at_end(model, pair, f.scratch);
   f.n.setZero();
@@ -46,8 +45,8 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
 }
 
 /// Time and velocity at once; false leaves the flight's guess as it was.
-bool refine_at_once(const ModelData& model, const StepOptions& options, int pair, double tau,
-                    double longest, const Node& node, Flight& f) {
+bool refine_at_once(const ModelData& model, const StepOptions& options, const Pair& pair,
+                    double tau, double longest, const Node& node, Flight& f) {
   if (f.active > 0) return false;
   f.before_v = f.arc.v;
   f.arc.tau = tau;
@@ -59,10 +58,10 @@ bool refine_at_once(const ModelData& model, const StepOptions& options, int pair
   return closed;
 }
 
-ImpactTime refine(const ModelData& model, const StepOptions& options, int pair, double tau,
+ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair& pair, double tau,
                   Bracket b, const Node& node, Flight& f) {
   if (refine_at_once(model, options, pair, tau, b.hi, node, f)) return ImpactTime::found;
-  const double touch = model.pairs[pair].touch;
+  const double touch = pair.touch;
   const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();
   // bisection alone takes 60 halvings to the last bit; Newton 3 to 5 steps
@@ -93,19 +92,22 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, int pair, 
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
 /// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
-ImpactTime find_return(const ModelData& model, const StepOptions& options, int pair,
+ImpactTime find_return(const ModelData& model, const StepOptions& options, int place,
                        const Node& node, Flight& f) {
-  const Contact& c = node.contacts[node.contact_of[pair]];
+  const int contact = node.contact_of[place];
+  if (contact < 0) return ImpactTime::missed;  // a part that does not face the other any more
+  const Contact& c = node.contacts[contact];
+  const Pair& pair = node.pool[place];
   const double tau = f.arc.tau;
   const double drop = phi_at_end(model, pair, f) - c.phi - c.u * tau;
   if (!(drop < 0)) return ImpactTime::missed;
   const double back = std::min(tau, -c.u * tau * tau / drop);
-  if (c.u * back / 4 <= model.pairs[pair].touch) return ImpactTime::at_rest;  // height of the hop
+  if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;
   for (int k = 0;; ++k) {
     if (!solve_flight_arc(model, options, lo, node, f)) return ImpactTime::not_converged;
-    if (phi_at_end(model, pair, f) > model.pairs[pair].touch) break;
+    if (phi_at_end(model, pair, f) > pair.touch) break;
     if (k == 40) return ImpactTime::at_rest;
     lo /= 2;
   }
@@ -124,9 +126,10 @@ bool solve_flight_arc(const ModelData& model, const StepOptions& options, double
   return converged;
 }
 
-ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int pair, double s,
+ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int place, double s,
                             const Node& node, Flight& f) {
-  if (s <= 0) return find_return(model, options, pair, node, f);
+  if (s <= 0) return find_return(model, options, place, node, f);
+  const Pair& pair = node.pool[place];
   const double tau = f.arc.tau;
   // most often the velocity of the shorter arc can be told from the arcs before
   if (f.active == 0 && f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {

@@ -18,9 +18,10 @@ enum class ImpactTime {
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
                       const Node& node, Flight& flight);
 
+/// @param place of the pair in the node's pool
 /// @param s where on the chord of flight.arc (of duration tau) the gap closes; 0 for a pair that
 /// touches at the node and leaves: then the time of its return is sought.
-ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int pair, double s,
+ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int place, double s,
                             const Node& node, Flight& flight);
 
 }  // namespace saltus

@@ -58,16 +58,29 @@ double typical_speed(const ModelData& model, const StepOptions& options, const N
 void reset_contacts(Node& node) {
   for (int i = 0; i < node.touching; ++i) node.contact_of[node.contacts[i].pair] = -1;
   node.touching = 0;
+  for (const int pair : node.silent) node.sunk[pair] = 0;
+  node.silent.clear();
+}
+
+/// [m] Gaps beyond this do not close within epsilon_t h: no pair closes faster than the bodies move,
+/// and 100 times the typical speed bounds light bodies'.
+double nearly(const StepOptions& options, double speed) {
+  return 100 * options.simultaneous * options.h * speed;
 }
 
 /// Adds the pair to the contacts if it touches, or would within epsilon_t h.
 void add_if_touching(const ModelData& model, const StepOptions& options, double speed, int index,
                      Node& node) {
-  const Pair& pair = model.pairs[index];
-  const Gap g = pair_gap(model.tree, node.kin, model.shapes, pair);
-  // no pair closes faster than the bodies move: 100 times the typical speed bounds light bodies'
+  const Pair& pair = node.pool[index];
+  const Gap g = pair_gap(model.tree, node.kin, pair);
   const double soon = options.simultaneous * options.h;
-  if (g.phi > pair.touch + 100 * soon * speed) return;
+  if (g.phi > pair.touch + nearly(options, speed)) return;
+  if (is_silent(model.tree, node.kin, pair, g)) {
+    if (pair.kind != PairKind::whole) return;
+    node.sunk[index] = g.phi;
+    node.silent.push_back(index);
+    return;
+  }
   Contact& c = next_in_pool(node);
   add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
   shape_row(model, node.trees, pair, c.n);
@@ -147,8 +160,10 @@ void apply(Node& node, int contact, double lambda) {
 }  // namespace
 
 Node::Node(const ModelData& model)
-    : contact_of(model.pairs.size(), -1),
-      held(model.pairs.size(), 0),
+    : pool(model),
+      contact_of(static_cast<std::size_t>(pool.size()), -1),
+      held(contact_of.size(), 0),
+      sunk(contact_of.size(), 0),
       w(model.packed),
       kin(model.tree),
       M(model.tree, model.packed),
@@ -157,7 +172,11 @@ Node::Node(const ModelData& model)
   const int n = model.tree.coordinates;
   for (VecX* x : {&q, &p, &v, &dq, &dense, &column, &launch.n}) x->setZero(n);
   for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
-  const std::size_t reserved = std::min(model.pairs.size(), contacts_reserved);
+  for (const PlacedShape& shape : model.shapes) {
+    const double touch = 1e-10 * feature_size(shape.shape);
+    if (std::isfinite(touch)) most_touch = std::max(most_touch, touch);
+  }
+  const std::size_t reserved = std::min(static_cast<std::size_t>(model.pairs.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees));
   G.start.reserve(reserved + 1);
   G.diagonal.reserve(reserved);
@@ -172,24 +191,48 @@ Node::Node(const ModelData& model)
   rest.setZero(static_cast<Eigen::Index>(reserved));
 }
 
+int place_of(const ModelData& model, int number, Node& node) {
+  const int place = node.pool.place_of(model, number);
+  const auto pairs = static_cast<std::size_t>(node.pool.size());
+  if (node.contact_of.size() < pairs) {
+    node.contact_of.resize(pairs, -1);
+    node.held.resize(pairs, 0);
+    node.sunk.resize(pairs, 0);
+  }
+  return place;
+}
+
+void forget_pairs(Node& node) {
+  reset_contacts(node);
+  node.pool.clear();
+  node.contact_of.assign(static_cast<std::size_t>(node.pool.size()), -1);
+  node.held.assign(node.contact_of.size(), 0);
+  node.sunk.assign(node.contact_of.size(), 0);
+}
+
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {
   if (model.pairs.empty()) return true;
   set_coordinates(model.tree, model.packed, node.q, node.w);
   place(model.packed, node.w);
   copy_poses(model.tree, model.packed, node.w, node.kin);
   node.dq = options.simultaneous * options.h * node.v;
-  double margin = 0;
-  for (const Pair& pair : model.pairs) margin = std::max(margin, pair.touch);
-  find_candidates(model.tree, model.shapes, node.kin, node.dq, margin, node.broad);
+  find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, node.most_touch,
+                  node.broad);
   reset_contacts(node);
   if (node.broad.candidates.empty()) return true;
   if (!set_velocity_at_node(model, node)) return false;
   const double speed = typical_speed(model, options, node);
-  for (const int index : node.broad.candidates) {
-    add_if_touching(model, options, speed, index, node);
-  }
-  for (const int index : node.broad.candidates) {
-    if (node.contact_of[index] < 0) node.held[index] = 0;
+  const Pair* solid = nullptr;
+  bool is_near = true;
+  for (const int number : node.broad.candidates) {
+    const int place = place_of(model, number, node);
+    if (node.pool.solid(place) != solid) {  // no part is nearer than the whole
+      solid = node.pool.solid(place);
+      is_near = solid == nullptr || pair_gap(model.tree, node.kin, *solid).phi <=
+                                        solid->touch + nearly(options, speed);
+    }
+    if (is_near) add_if_touching(model, options, speed, place, node);
+    if (node.contact_of[place] < 0) node.held[place] = 0;
   }
   return true;
 }
@@ -273,7 +316,7 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
       add(node.trees, 1, c.n, node.launch.n);
     }
     apply(node, impulse.pair, impulse.lambda);
-    report.impulses.push_back({c.pair, impulse.lambda});
+    report.impulses.push_back({node.pool.number(c.pair), impulse.lambda});
   }
   node.launch.pending = options.law == ImpactLaw::discrete_energy;
   node.launch.energy = arc_energy;

@@ -14,12 +14,13 @@
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/report.hpp"
 #include "variational/contact_vector.hpp"
+#include "variational/pair_pool.hpp"
 
 namespace saltus {
 
 struct Contact {
   enum class Motion { approaches, rests, leaves };
-  int pair = -1;
+  int pair = -1;         ///< its place in the pool
   double phi = 0;        ///< [m]
   double u = 0;          ///< [m/s] gap rate
   double epsilon_u = 0;  ///< [m/s]
@@ -43,8 +44,10 @@ struct Node {
   VecX q, p, v;                   ///< v = M^-1 p, written by find_contacts where pairs touch
   std::vector<Contact> contacts;  ///< a pool; the first `touching` are valid
   int touching = 0;
-  std::vector<int> contact_of;  ///< (pairs) index in contacts, or -1
-  std::vector<char> held;       ///< (pairs) kept closed by a force in the last arc
+  PairPool pool;
+  std::vector<int> contact_of;  ///< (pool) index in contacts, or -1
+  std::vector<char> held;       ///< (pool) kept closed by a force in the last arc
+  std::vector<double> sunk;     ///< (pool) [m] phi of a pair that is silent here; else 0
   Launch launch;
 
   // scratch
@@ -59,8 +62,16 @@ struct Node {
   CascadeScratch cascade;
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
+  std::vector<int> silent;  ///< pairs with an entry in `sunk`
   double total_mass = 0;
+  double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
+
+/// The place of a pair in the pool; the lists by place grow with it.
+int place_of(const ModelData& model, int number, Node& node);
+
+/// Forgets the pairs that have been met, and with them what touched and was held.
+void forget_pairs(Node& node);
 
 /// Writes contacts (motion included) and v. Needs t, q, p. Pairs that have parted are not held.
 /// @return false where the mass matrix is singular.

@@ -87,7 +87,7 @@ void Stepper::Impl::step(State& state) {
   report.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
-  if (!last_is_valid || !(state == last)) start(state);
+  if (!last_is_valid || !(state == last) || node.pool.is_full()) start(state);
   last_is_valid = false;  // until this step is done
   const double t_start = state.t, h = options.h;
   for (double left = h; left > 0;) {
@@ -109,6 +109,7 @@ void Stepper::Impl::start(const State& state) {
   node.launch.pending = false;
   start_anew(node.broad);
   start_anew(flight.broad);
+  if (node.pool.is_full()) forget_pairs(node);
   std::fill(node.held.begin(), node.held.end(), 0);
   node.t = state.t;
   node.q = state.q;
@@ -128,9 +129,9 @@ void Stepper::Impl::check_overlap() const {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     // 100 touches (1e-8 of the shapes' size): what a state written with 8 digits loses
-    if (c.phi >= -100 * model->pairs[c.pair].touch) continue;
+    if (c.phi >= -100 * node.pool[c.pair].touch) continue;
     if (++found <= 5) {
-      text << (found > 1 ? ", " : "") << model.pair_name(c.pair) << " by " << -c.phi << " m";
+      text << (found > 1 ? ", " : "") << model.pair_name(node.pool.number(c.pair)) << " by " << -c.phi << " m";
     }
   }
   if (found == 0) return;
@@ -186,7 +187,7 @@ void Stepper::Impl::finish() {
 
 std::string Stepper::Impl::contact_list() const {
   std::vector<std::string> names;
-  for (int i = 0; i < node.touching; ++i) names.push_back(model.pair_name(node.contacts[i].pair));
+  for (int i = 0; i < node.touching; ++i) names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
   return list_names(names);
 }
 
@@ -199,7 +200,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
            << " s: " << contact_list();
       break;
     case FlightOutcome::impact_not_located:
-      text << "the time after t = " << node.t << " s at which " << model.pair_name(flight.closing)
+      text << "the time after t = " << node.t << " s at which " << model.pair_name(node.pool.number(flight.closing))
            << " closes was not found";
       break;
     case FlightOutcome::no_progress:

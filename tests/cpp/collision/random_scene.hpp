@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "saltus/collision/contact.hpp"
+#include "saltus/collision/pair_table.hpp"
 
 namespace saltus::testing_scene {
 
@@ -82,8 +82,31 @@ inline PlacedShape place(const Shape& shape, int joint, const Pose& X_JG) {
   return placed;
 }
 
+/// The two shapes as wholes.
 inline Pair make_pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b) {
-  return {a, b, chain_between(tree, shapes[b].joint, shapes[a].joint), 1e-10};
+  Pair pair;
+  pair.a = a;
+  pair.b = b;
+  pair.on_a = shapes[a];
+  pair.on_b = shapes[b];
+  pair.chain = chain_between(tree, shapes[b].joint, shapes[a].joint);
+  pair.touch = 1e-10;
+  return pair;
+}
+
+/// The table of all pairs, and the pairs themselves, for small scenes.
+inline PairTable table_of(const std::vector<PlacedShape>& shapes) {
+  return {shapes, {std::vector<int>(shapes.size(), 0), {}, {}}};
+}
+
+inline std::vector<Pair> pairs_of(const Tree& tree, const std::vector<PlacedShape>& shapes,
+                                  const PairTable& table) {
+  std::vector<Pair> pairs;
+  for (int k = 0; k < table.size(); ++k) {
+    const PairTable::Key key = table.key(k);
+    pairs.push_back(make_pair(tree, shapes, key.a, key.b, key.part));
+  }
+  return pairs;
 }
 
 /// A sphere on one joint and a shape of the kind on another, or on the world if a half-space.
@@ -96,7 +119,7 @@ struct Scene {
   Gap gap_at(const VecX& configuration) const {
     Kinematics kin(tree);
     set_configuration(tree, configuration, kin);
-    return pair_gap(tree, kin, shapes, pair);
+    return pair_gap(tree, kin, pair);
   }
 };
 

@@ -26,12 +26,12 @@ struct Chord {
 
   double operator()(double s) {
     set_configuration(scene.tree, q + s * dq, kin);
-    return pair_gap(scene.tree, kin, scene.shapes, scene.pair).phi - floor;
+    return pair_gap(scene.tree, kin, scene.pair).phi - floor;
   }
   ChordHit hit() const {
-    return first_hit_on_chord(scene.tree, scene.shapes, scene.pair, q, dq, floor);
+    return first_hit_on_chord(scene.tree, scene.pair, q, dq, floor);
   }
-  double bound() const { return gap_change_bound(scene.tree, scene.shapes, scene.pair, q, dq); }
+  double bound() const { return gap_change_bound(scene.tree, scene.pair, q, dq); }
 };
 
 /// First s <= 1 where the chord is below 0, from samples and bisection; 2 if there is none.

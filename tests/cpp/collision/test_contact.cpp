@@ -24,7 +24,7 @@ struct Derivatives {
 Derivatives derivatives(const Scene& scene, const VecX& q) {
   Kinematics kin(scene.tree);
   set_configuration(scene.tree, q, kin);
-  Derivatives d{pair_gap(scene.tree, kin, scene.shapes, scene.pair), VecX::Zero(q.size()),
+  Derivatives d{pair_gap(scene.tree, kin, scene.pair), VecX::Zero(q.size()),
                 MatX::Zero(q.size(), q.size())};
   add_gap_gradient(scene.tree, kin, scene.pair, d.gap, d.phi_q);
   add_gap_hessian(scene.tree, kin, scene.pair, d.gap, d.phi_qq);

@@ -10,7 +10,6 @@ namespace saltus {
 namespace {
 
 using test::allocations;
-using testing_scene::make_pair_of;
 using testing_scene::place;
 using testing_scene::Random;
 
@@ -34,23 +33,21 @@ TEST(Allocation, NoneInAStep) {
   for (int i = 0; i < n; ++i) shapes.push_back(place(Sphere{0.4}, i, random.pose(0.2)));
   shapes.push_back(place(HalfSpace{}, -1, {}));
   shapes.push_back(place(Box{Vec3(0.2, 0.3, 0.4)}, 2, random.pose(0.2)));
-  std::vector<Pair> pairs;
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n + 2; ++j) pairs.push_back(make_pair_of(tree, shapes, i, j));
-  }
+  const PairTable table = testing_scene::table_of(shapes);
+  const std::vector<Pair> pairs = testing_scene::pairs_of(tree, shapes, table);
   Kinematics kin(tree);
-  BroadPhase bp(tree, shapes, pairs);
+  BroadPhase bp(tree, shapes, table);
   const VecX q = random.numbers(tree.coordinates, 1), dq = random.numbers(tree.coordinates, 1);
   VecX phi_q = VecX::Zero(q.size());
   MatX phi_qq = MatX::Zero(q.size(), q.size());
 
   const long before = allocations;
   set_configuration(tree, q, kin);
-  find_candidates(tree, shapes, kin, dq, 0, bp);
+  find_candidates(tree, shapes, table, kin, dq, 0, bp);
   int hits = 0;
   for (const int i : bp.candidates) {
-    hits += first_hit_on_chord(tree, shapes, pairs[i], q, dq, 0).outcome == ChordHit::Outcome::hit;
-    const Gap g = pair_gap(tree, kin, shapes, pairs[i]);
+    hits += first_hit_on_chord(tree, pairs[i], q, dq, 0).outcome == ChordHit::Outcome::hit;
+    const Gap g = pair_gap(tree, kin, pairs[i]);
     add_gap_gradient(tree, kin, pairs[i], g, phi_q);
     add_gap_hessian(tree, kin, pairs[i], g, phi_qq);
   }

@@ -3,12 +3,14 @@
 // Every shape is held by a ball about its origin at q; along the chord it stays within a ball
 // larger by the most that its origin can move. Pairs whose larger balls are disjoint cannot touch.
 // The balls are kept sorted by their lower end along one axis between calls, so that a coherent
-// motion costs O(n) (insertion sort). Half-spaces are held against the balls of their partners.
+// motion in a row costs O(n) (insertion sort); where too many overlap along any one axis, a tree of
+// balls takes over, O(n log n). Half-spaces are held against all balls.
 #pragma once
 
 #include <utility>
 
-#include "saltus/collision/contact.hpp"
+#include "saltus/collision/ball_tree.hpp"
+#include "saltus/collision/pair_table.hpp"
 
 namespace saltus {
 
@@ -17,23 +19,18 @@ namespace saltus {
 struct BroadPhase {
   BroadPhase() = default;
   SALTUS_EXPORT BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
-                           const std::vector<Pair>& pairs);
+                           const PairTable& pairs);
 
-  std::vector<int> candidates;  ///< indices of pairs that can touch, ascending; by find_candidates
+  std::vector<int> candidates;  ///< numbers of pairs that can touch, ascending; by find_candidates
 
-  /// A shape that a pair refers to, and the pair.
-  struct Partner {
-    int shape, pair;
-  };
-  std::vector<int> first_partner;  ///< (shapes + 1) where the row of a shape starts
-  std::vector<Partner> partner;    ///< (pairs) a row for the half-space or smaller index of each
-                                   ///< pair, sorted by shape in each row
-  std::vector<int> unbounded;      ///< half-spaces that are in a pair
-
+  std::vector<int> unbounded;  ///< half-spaces that are in a pair
   std::vector<int>
       order;     ///< bounded shapes in pairs, by lower end along `axis`; by find_candidates
   int axis = 0;  ///< of the sweep: the one along which the shapes are spread; likewise
-  std::vector<Vec3> center;    ///< (shapes) [m] p_WG; likewise
+  int rest = 0;  ///< calls left in which the tree is used without a sweep; likewise
+  BallTree tree;
+  std::vector<double> size;    ///< (shapes) [m] radius of the ball that holds a shape
+  std::vector<Vec3> center;    ///< (shapes) [m] p_WG; by find_candidates
   std::vector<double> reach;   ///< (shapes) [m] radius of the swept ball; likewise
   std::vector<double> lower;   ///< (shapes) [m] its lower end along `axis`; likewise
   std::vector<double> moved;   ///< (n) [m] the most a joint frame's origin can move; likewise
@@ -41,10 +38,10 @@ struct BroadPhase {
 };
 
 /// Writes bp.candidates: every pair that can come to phi <= margin on the chord from q by dq (n_q).
-/// Needs set_configuration at q, and the tree and shapes that `bp` was made for.
+/// Needs set_configuration at q, and the tree, shapes and pairs that `bp` was made for.
 SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
-                                   const Kinematics& kin, const VecRef& dq, double margin,
-                                   BroadPhase& bp);
+                                   const PairTable& pairs, const Kinematics& kin, const VecRef& dq,
+                                   double margin, BroadPhase& bp);
 
 /// Forgets the coherence. The candidates of balls that touch to the last bit may depend on it.
 SALTUS_EXPORT void start_anew(BroadPhase& bp);

@@ -23,28 +23,47 @@ struct ChainJoint {
 };
 
 /// A shape and the joint frame that carries it (-1: the world).
-struct PlacedShape {
+struct Placed {
   Shape shape;
   int joint = -1;
-  Pose X_JG;         ///< placement in the joint's frame
+  Pose X_JG;  ///< placement in the joint's frame
+};
+
+/// A shape of a link.
+struct PlacedShape : Placed {
   int link = 0;      ///< index of the link it belongs to
   std::string name;  ///< unique: the link's name, "#k" added where a link has several shapes
 };
 
-/// Two shapes whose gap is watched; a must be a sphere (its centre is P of the Hessian and of the
-/// certified advance).
+/// How the gap of a pair is found; see parts.hpp.
+enum class PairKind {
+  whole,     ///< the signed distance of two solids
+  corner,    ///< that of a corner or end of one of them, which is a, from the other
+  crossing,  ///< that of two edges, where they cross; nothing where they do not
+};
+
+/// One gap that is watched: two shapes, or a part of one and the other.
 struct Pair {
-  int a, b;                       ///< indices of shapes
+  int a = -1, b = -1;   ///< indices of shapes
+  int part = 0;         ///< which of the gaps of these two shapes
+  PairKind kind = PairKind::whole;
+  Placed on_a, on_b;    ///< the parts that face each other; b alone may be a half-space
+  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();  ///< out of the shape where its part is, in the
+                                                    ///< part's frame; 0 where it has no such side
+  bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
-  double touch;                   ///< [m] epsilon_phi: |phi| below this is touching
+  double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
 };
 
 /// Joints between two joint frames (-1: the world), ordered from b to a.
 SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a);
 
-/// Gap of a pair at the configuration in `kin`. Needs set_configuration.
-SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin,
-                           const std::vector<PlacedShape>& shapes, const Pair& pair);
+/// Gap of a pair at the configuration in `kin`; see part_gap. Needs set_configuration.
+SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair);
+
+/// True where the pair is of parts that do not face each other there; see parts.hpp.
+SALTUS_EXPORT bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                             const Gap& gap);
 
 /// Adds the pair's gradient to `phi_q` (n_q), through the drives of mimic joints.
 SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,

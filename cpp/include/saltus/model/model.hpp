@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "saltus/collision/contact.hpp"
+#include "saltus/collision/pair_table.hpp"
 #include "saltus/error.hpp"
 #include "saltus/lagrangian/partials.hpp"
 #include "saltus/model/state.hpp"
@@ -69,7 +69,7 @@ struct ModelData {
   std::vector<JointInfo> joints;
   std::vector<Coordinate> coordinates;  ///< (n_q)
   std::vector<PlacedShape> shapes;
-  std::vector<Pair> pairs;
+  PairTable pairs;
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
 };
@@ -77,7 +77,7 @@ struct ModelData {
 /// Gaps of all pairs at one configuration, dense, for people.
 struct Gaps {
   std::vector<std::string> names;  ///< (m) "a ~ b"
-  VecX phi;                        ///< (m) [m]
+  VecX phi;                        ///< (m) [m] infinite where two parts do not face each other
   MatX phi_q;                      ///< (m, n_q)
   std::vector<MatX> phi_qq;        ///< (m) of (n_q, n_q)
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> normal, p_WA, p_WB;  ///< (m, 3)
@@ -101,6 +101,7 @@ class SALTUS_EXPORT Model {
   VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_q)
   LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
   MatX mass_matrix(const VecRef& q) const;
+  /// @throws ModelError where the dense result would not fit into 1 GiB.
   Gaps gaps(const VecRef& q) const;
   double kinetic_energy(const State& state) const;  ///< [J]
   double potential_energy(const VecRef& q) const;   ///< [J] zero at the world's origin
@@ -108,7 +109,8 @@ class SALTUS_EXPORT Model {
 
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are
-  std::string pair_name(int pair) const;          ///< "a ~ b"
+  Pair pair(int pair) const;                      ///< what the pair of this number is of
+  std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
   std::vector<TreeSolution> solvers() const;      ///< how steps solve its trees
 
   /// A copy of this model without any pair: bodies pass through each other.

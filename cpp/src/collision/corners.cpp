@@ -1,0 +1,94 @@
+#include "collision/corners.hpp"
+
+#include <cassert>
+#include <numbers>
+
+namespace saltus {
+namespace {
+
+char sign_name(double x) { return x < 0 ? '-' : '+'; }
+
+PartOfShape point(std::string name, double radius, const Vec3& p, const Vec3& out) {
+  return {std::move(name), Sphere{radius}, {Mat3::Identity(), p}, out};
+}
+
+PartOfShape corner_of(const Box& box, int k) {
+  const Vec3 sign(k & 1 ? -1 : 1, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
+  const std::string name = {sign_name(sign.x()), sign_name(sign.y()), sign_name(sign.z())};
+  return point(name, 0, sign.cwiseProduct(box.half), sign.normalized());
+}
+
+PartOfShape corner_of(const Capsule& capsule, int k) {
+  const double z = k == 0 ? 1 : -1;
+  return point({sign_name(z)}, capsule.radius, z * capsule.half_length * Vec3::UnitZ(),
+               Vec3::Zero());
+}
+
+PartOfShape corner_of(const Convex& convex, int k) {
+  const Vec3& v = convex.hull->vertices[k];
+  return point("v" + std::to_string(k), 0, v, (v - convex.hull->center).normalized());
+}
+
+// A rim has no corners; four points of it bear a cylinder that stands, where its lowest point
+// can be anywhere.
+PartOfShape corner_of(const Cylinder& cylinder, int k) {
+  const double z = k < 4 ? 1 : -1;
+  const Vec3 w = Eigen::AngleAxisd((k % 4) * std::numbers::pi / 2, Vec3::UnitZ()) * Vec3::UnitX();
+  const std::string name = std::string(1, sign_name(z)) + std::to_string(90 * (k % 4));
+  const Vec3 p = cylinder.radius * w + z * cylinder.half_length * Vec3::UnitZ();
+  return point(name, 0, p, (w + z * Vec3::UnitZ()).normalized());
+}
+
+PartOfShape edge_of(const Box& box, int k) {
+  const int along = k / 4, i = (along + 1) % 3, j = (along + 2) % 3;
+  const double sign_i = k & 1 ? -1 : 1, sign_j = k & 2 ? -1 : 1;
+  const Vec3 out = (sign_i * Vec3::Unit(i) + sign_j * Vec3::Unit(j)).normalized();
+  Pose X_GP;
+  X_GP.R = rotation_z_to(Vec3::Unit(along));
+  X_GP.p = sign_i * box.half[i] * Vec3::Unit(i) + sign_j * box.half[j] * Vec3::Unit(j);
+  std::string name = "...";
+  name[along] = "xyz"[along];
+  name[i] = sign_name(sign_i);
+  name[j] = sign_name(sign_j);
+  return {name, Capsule{0, box.half[along]}, X_GP, X_GP.R.transpose() * out};
+}
+
+}  // namespace
+
+int corner_count(const Shape& shape) {
+  if (std::holds_alternative<Box>(shape) || std::holds_alternative<Cylinder>(shape)) return 8;
+  if (std::holds_alternative<Capsule>(shape)) return 2;
+  if (const auto* convex = std::get_if<Convex>(&shape)) {
+    return static_cast<int>(convex->hull->vertices.size());
+  }
+  return 0;
+}
+
+PartOfShape corner(const Shape& shape, int k) {
+  assert(k < corner_count(shape));
+  if (const auto* box = std::get_if<Box>(&shape)) return corner_of(*box, k);
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return corner_of(*capsule, k);
+  if (const auto* convex = std::get_if<Convex>(&shape)) return corner_of(*convex, k);
+  return corner_of(std::get<Cylinder>(shape), k);
+}
+
+int edge_count(const Shape& shape) {
+  if (std::holds_alternative<Box>(shape)) return 12;
+  return std::holds_alternative<Capsule>(shape) ? 1 : 0;
+}
+
+PartOfShape edge(const Shape& shape, int k) {
+  assert(k < edge_count(shape));
+  if (const auto* box = std::get_if<Box>(&shape)) return edge_of(*box, k);
+  return {"axis", shape, {}, Vec3::Zero()};
+}
+
+PartOfShape rim(const Cylinder& shape, int k) {
+  const double z = k == 0 ? 1 : -1;
+  return {std::string("rim") + sign_name(z),
+          Cylinder{shape.radius, 0},
+          {Mat3::Identity(), z * shape.half_length * Vec3::UnitZ()},
+          z * Vec3::UnitZ()};
+}
+
+}  // namespace saltus

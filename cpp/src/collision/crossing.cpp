@@ -1,0 +1,71 @@
+// Lines x(xi) = c_a + xi t_a and y(eta) = c_b + eta t_b, at rest where w = x - y is across both:
+//
+//   n = +- t_a x t_b / |t_a x t_b|,  d = n.(c_a - c_b)
+//   xi = ((t_b.w0)(t_a.t_b) - t_a.w0)/det,  eta = (t_b.w0 - (t_a.w0)(t_a.t_b))/det,  w0 = c_a - c_b
+//
+// with det = 1 - (t_a.t_b)^2. n points out of b and into a where these have a side there (the
+// edges of solids: then d < 0 is penetration); two bare axes have no sides, and d >= 0.
+#include "collision/crossing.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "collision/point_distance.hpp"
+
+namespace saltus {
+namespace {
+
+/// Below this sine edges count as parallel: their ends bear the load, and 1/det loses its digits.
+constexpr double parallel = 1e-6;
+
+/// An edge's normals lie between those of its two faces, 45 degrees to each side of `out`: of a
+/// box. Faces that lie on one another may be this far from parallel [rad].
+constexpr double least_cosine = 0.70710678118654752 - 1e-3;
+
+/// Part of an edge next to its ends that is left to the corners.
+constexpr double end = 1e-9;
+
+Vec3 axis(const Pose& X) { return X.R.col(2); }
+
+}  // namespace
+
+Gap crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
+  const auto &a = std::get<Capsule>(pair.on_a.shape), &b = std::get<Capsule>(pair.on_b.shape);
+  const Vec3 t_a = axis(X_WA), t_b = axis(X_WB), w0 = X_WA.p - X_WB.p;
+  const Vec3 across = t_a.cross(t_b);
+  const double sine = across.norm(), cosine = t_a.dot(t_b);
+  Gap g{};
+  g.a = {.dim = 1, .t0 = t_a};
+  g.b = {.dim = 1, .t0 = t_b};
+  if (sine < parallel) {
+    g.phi = g.d = std::numeric_limits<double>::infinity();
+    g.n_W = t_a.unitOrthogonal();
+    g.p_WA = g.center_W = X_WA.p;
+    g.p_WB = X_WB.p;
+    return g;
+  }
+  g.n_W = across / sine;
+  const Vec3 out = X_WB.R * pair.out_b - X_WA.R * pair.out_a;
+  if (g.n_W.dot(out.isZero(0) ? w0 : out) < 0) g.n_W = -g.n_W;
+  const double xi = (t_b.dot(w0) * cosine - t_a.dot(w0)) / (sine * sine);
+  g.d = g.n_W.dot(w0);
+  g.phi = g.d - a.radius - b.radius;
+  g.center_W = X_WA.p + xi * t_a;
+  g.p_WA = g.center_W - a.radius * g.n_W;
+  g.p_WB = g.p_WA - g.phi * g.n_W;
+  return g;
+}
+
+bool is_crossing(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
+  if (!std::isfinite(gap.phi)) return false;
+  const auto &a = std::get<Capsule>(pair.on_a.shape), &b = std::get<Capsule>(pair.on_b.shape);
+  const double xi = axis(X_WA).dot(gap.center_W - X_WA.p);
+  const double eta = axis(X_WB).dot(gap.p_WB - b.radius * gap.n_W - X_WB.p);
+  if (std::abs(xi) > a.half_length * (1 - end)) return false;
+  if (std::abs(eta) > b.half_length * (1 - end)) return false;
+  const Vec3 out_a = X_WA.R * pair.out_a, out_b = X_WB.R * pair.out_b;
+  if (!pair.out_a.isZero(0) && -gap.n_W.dot(out_a) < least_cosine) return false;
+  return pair.out_b.isZero(0) || gap.n_W.dot(out_b) >= least_cosine;
+}
+
+}  // namespace saltus

@@ -1,0 +1,45 @@
+// The pairs that a stepper has met, each made once.
+//
+// What a step keeps by pair (contact, held, passed) is kept by its place here. Where the model has
+// few pairs all are made at once, place = number, and a step allocates nothing; of 5e7 only those
+// that come near each other are ever made.
+#pragma once
+
+#include <deque>
+#include <unordered_map>
+#include <vector>
+
+#include "saltus/model/model.hpp"
+
+namespace saltus {
+
+class PairPool {
+ public:
+  explicit PairPool(const ModelData& model);
+
+  /// The place of a pair, which is made if it is new: then places grow by one.
+  int place_of(const ModelData& model, int pair);
+
+  int size() const { return static_cast<int>(number_.size()); }
+  const Pair& operator[](int place) const { return pair_[place]; }
+  int number(int place) const { return number_[place]; }  ///< in model.pairs
+  /// Of a pair of parts the two shapes as wholes, which say in one gap that no part is near; the
+  /// same for all parts. None where the pair is of wholes.
+  const Pair* solid(int place) const {
+    return solid_of_[place] < 0 ? nullptr : &solid_[solid_of_[place]];
+  }
+
+  /// True where so many have been met that the memory of them is better given back.
+  bool is_full() const;
+  void clear();  ///< no effect where all are made
+
+ private:
+  void add(const ModelData& model, int number);
+
+  bool all_;
+  std::deque<Pair> pair_, solid_;  ///< at addresses that stay
+  std::vector<int> solid_of_, number_;
+  std::unordered_map<int, int> place_;  ///< by number, unless all are made
+};
+
+}  // namespace saltus
