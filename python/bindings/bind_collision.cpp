@@ -38,7 +38,7 @@ list of (str, str)
 
 constexpr auto placed_shape_doc = R"(A shape of a model and the joint frame that carries it.)";
 
-constexpr auto pair_doc = R"(Two shapes of a model whose gap is watched.)";
+constexpr auto pair_doc = R"(A gap that is watched, of two shapes of a model or of parts of them.)";
 
 std::string show(double x) { return py::repr(py::float_(x)).cast<std::string>(); }
 
@@ -131,9 +131,11 @@ void bind_collision(py::module_& m) {
   py::class_<Pair>(m, "Pair", pair_doc)
       .def_readonly("a", &Pair::a, "index in the model's `shapes`")
       .def_readonly("b", &Pair::b, "index in the model's `shapes`")
+      .def_readonly("part", &Pair::part, "which of the gaps of these two shapes")
       .def_readonly("touch", &Pair::touch, "[m] below this |phi| the shapes touch")
       .def("__repr__", [](const Pair& p) {
-        return "Pair(" + std::to_string(p.a) + ", " + std::to_string(p.b) + ")";
+        const std::string part = p.part == 0 ? "" : ", part=" + std::to_string(p.part);
+        return "Pair(" + std::to_string(p.a) + ", " + std::to_string(p.b) + part + ")";
       });
 }
 

@@ -99,12 +99,26 @@ void bind_gaps(py::module_& m) {
            [](const Gaps& g) { return "Gaps(" + std::to_string(g.phi.size()) + " pairs)"; });
 }
 
+/// Lists are for people and small models.
+void check_listable(const Model& model) {
+  constexpr int most = 1'000'000;
+  if (model->pairs.size() <= most) return;
+  throw ModelError("the model has " + std::to_string(model->pairs.size()) +
+                   " pairs, too many for a list; pair(k) and pair_name(k) give one of them");
+}
+
 std::vector<std::string> pair_names(const Model& model) {
+  check_listable(model);
   std::vector<std::string> names;
-  for (int i = 0; i < static_cast<int>(model->pairs.size()); ++i) {
-    names.push_back(model.pair_name(i));
-  }
+  for (int i = 0; i < model->pairs.size(); ++i) names.push_back(model.pair_name(i));
   return names;
+}
+
+std::vector<Pair> pairs(const Model& model) {
+  check_listable(model);
+  std::vector<Pair> list;
+  for (int i = 0; i < model->pairs.size(); ++i) list.push_back(model.pair(i));
+  return list;
 }
 
 void bind_lists(py::class_<Model>& c) {
@@ -123,12 +137,20 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("coordinates",
                              [](const Model& m) -> const auto& { return m->coordinates; })
       .def_property_readonly("shapes", [](const Model& m) -> const auto& { return m->shapes; })
-      .def_property_readonly("pairs", [](const Model& m) -> const auto& { return m->pairs; })
+      .def_property_readonly("pairs", &pairs, "a list of the pairs; at most 10^6 of them")
+      .def_property_readonly(
+          "n_pairs", [](const Model& m) { return m->pairs.size(); }, "number of pairs")
       .def_property_readonly("link_names", [](const Model& m) { return names_of(m->links); })
       .def_property_readonly("joint_names", [](const Model& m) { return names_of(m->joints); })
       .def_property_readonly("coordinate_names",
                              [](const Model& m) { return names_of(m->coordinates); })
-      .def_property_readonly("pair_names", &pair_names, "\"a ~ b\" of every pair")
+      .def_property_readonly("pair_names", &pair_names,
+                             "\"a ~ b\" of every pair, \"a[part] ~ b\" where shapes have several")
+      .def("pair", &Model::pair, py::arg("pair"), "The pair of this number, from 0 to `n_pairs` - 1.")
+      .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
+      .def("pair_kinds", &Model::pair_kinds,
+           "How many pairs there are of each two kinds of shape, by their names in alphabetical "
+           "order.")
       .def_property_readonly("solvers", &Model::solvers, "TreeSolutions: how its trees are solved")
       .def("coordinate", &Model::coordinate, py::arg("name"),
            "Index of a coordinate; ModelError with the names there are.")

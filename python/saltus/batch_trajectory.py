@@ -27,7 +27,7 @@ class BatchTrajectory:
     ----------
     model : Model
     options : StepOptions
-    coordinate_names, pair_names : tuple of str
+    coordinate_names : tuple of str
     t : numpy.ndarray, shape (rows,)
         [s] the same for all runs.
     q, v, p : numpy.ndarray, shape (B, rows, n)
@@ -49,7 +49,6 @@ class BatchTrajectory:
     model: Model
     options: StepOptions
     coordinate_names: tuple[str, ...]
-    pair_names: tuple[str, ...]
     t: Array
     q: Array
     v: Array
@@ -78,10 +77,14 @@ class BatchTrajectory:
             model=core.model,
             options=core.options,
             coordinate_names=tuple(core.model.coordinate_names),
-            pair_names=tuple(core.model.pair_names),
             _runs=core,
             **arrays,
         )
+
+    @property
+    def pair_names(self) -> tuple[str, ...]:
+        """Of all pairs."""
+        return tuple(self.model.pair_names)
 
     def __len__(self) -> int:
         return len(self.complete)

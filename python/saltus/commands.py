@@ -68,7 +68,7 @@ def info(chosen: argparse.Namespace) -> int:
     mass = sum(link.mass for link in model.links)
     print(
         f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
-        f"coordinates, {len(model.shapes)} shapes, {len(model.pairs)} pairs, {mass:g} kg"
+        f"coordinates, {len(model.shapes)} shapes, {model.n_pairs} pairs, {mass:g} kg"
     )
     _print_solvers(model)
     _print_table(
@@ -134,13 +134,9 @@ def _print_coordinates(model: saltus.Model) -> None:
 
 
 def _print_pair_kinds(model: saltus.Model) -> None:
-    def kind(a: int, b: int) -> tuple[str, str]:
-        first, second = sorted(saltus.shape_name(model.shapes[i].shape) for i in (a, b))
-        return first, second
-
-    counts = Counter(kind(pair.a, pair.b) for pair in model.pairs)
+    counts = model.pair_kinds()
     table = sorted({(min(row), max(row)) for row in saltus.gap_table()})
-    rows = ([f"{a} ~ {b}", str(counts[a, b])] for a, b in table)
+    rows = ([f"{a} ~ {b}", str(counts.get((a, b), 0))] for a, b in table)
     _print_table("kinds of pairs", ["kind", "in this model"], rows)
 
 

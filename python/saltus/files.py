@@ -19,7 +19,7 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.trajectory import IMPACT, IMPULSE, Trajectory
+from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, Trajectory
 
 if TYPE_CHECKING:
     import h5py
@@ -149,7 +149,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             root_joint=JointType[file.attrs["root_joint"]],
             solver=TreeSolver[file.attrs.get("solver", "automatic")],
         ).build()
-        if not pairs:
+        if not pairs and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
     if model is not None:
         _check_model(model, coordinates, pairs, path)
@@ -167,9 +167,10 @@ def _check_model(
     model: Model, coordinates: tuple[str, ...], pairs: tuple[str, ...], path: Path
 ) -> None:
     """Raise ModelError where a model cannot be that of the run."""
+    few = model.n_pairs <= LISTED_PAIRS  # else the run names those that collided
     for what, own, others in (
         ("coordinates", coordinates, model.coordinate_names),
-        ("pairs", pairs, model.pair_names),
+        ("pairs", pairs, model.pair_names if few else list(pairs)),
     ):
         if list(own) != others:
             raise ModelError(
@@ -194,12 +195,13 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
             again = read_urdf(model.source, **options).build()
         except ModelError:
             continue
-        if _parts(again if model.pairs else again.without_collisions()) == _parts(model):
+        if _parts(again if model.n_pairs else again.without_collisions()) == _parts(model):
             return options
     return None
 
 
 def _parts(model: Model) -> tuple[list[str], ...]:
     shapes = [shape.name for shape in model.shapes]
-    names = model.link_names, model.joint_names, model.coordinate_names, shapes, model.pair_names
-    return *names, [repr(trees) for trees in model.solvers]
+    names = model.link_names, model.joint_names, model.coordinate_names, shapes
+    pairs = model.pair_names if model.n_pairs <= LISTED_PAIRS else [str(model.n_pairs)]
+    return *names, pairs, [repr(trees) for trees in model.solvers]

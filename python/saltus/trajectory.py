@@ -25,6 +25,17 @@ IMPACT = np.dtype(
 )
 IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8")])
 
+LISTED_PAIRS = 100_000
+"""Models with more pairs have no list of their names in a trajectory."""
+
+
+def names_of_pairs(model: Model, impulses: npt.NDArray[np.void]) -> tuple[str, ...]:
+    """Name the pairs that `impulses["pair"]` refers to, counting anew where they are too many."""
+    if model.n_pairs <= LISTED_PAIRS:
+        return tuple(model.pair_names)
+    numbers, impulses["pair"] = np.unique(impulses["pair"], return_inverse=True)
+    return tuple(model.pair_name(int(number)) for number in numbers)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Trajectory:
@@ -35,7 +46,9 @@ class Trajectory:
     model : Model or None
         None where it was loaded from a file that could not hold the model.
     options : StepOptions
-    coordinate_names, pair_names : tuple of str
+    coordinate_names : tuple of str
+    pair_names : tuple of str
+        Of all pairs; where the model has more than `LISTED_PAIRS`, of those that collided.
     t : numpy.ndarray, shape (rows,)
         [s]
     q, v, p : numpy.ndarray, shape (rows, n)
@@ -86,16 +99,17 @@ class Trajectory:
         impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
         impulses["pair"] = core.impulses["pair"]
         impulses["lambda"] = core.impulses["lambda"]
+        model = core.model
+        pair_names = names_of_pairs(model, impulses)
         for array in (impacts, impulses):
             array.flags.writeable = False
-        model = core.model
         names = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
         numbers = ("iterations", "residual", "complete", "energy_error")
         return cls(
             model=model,
             options=core.options,
             coordinate_names=tuple(model.coordinate_names),
-            pair_names=tuple(model.pair_names),
+            pair_names=pair_names,
             impacts=impacts,
             impulses=impulses,
             **{name: getattr(core, name) for name in (*names, *numbers)},

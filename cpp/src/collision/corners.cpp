@@ -26,7 +26,7 @@ PartOfShape corner_of(const Capsule& capsule, int k) {
 
 PartOfShape corner_of(const Convex& convex, int k) {
   const Vec3& v = convex.hull->vertices[k];
-  return point("v" + std::to_string(k), 0, v, (v - convex.hull->center).normalized());
+  return point(std::string("v").append(std::to_string(k)), 0, v, (v - convex.hull->center).normalized());
 }
 
 // A rim has no corners; four points of it bear a cylinder that stands, where its lowest point
@@ -34,7 +34,8 @@ PartOfShape corner_of(const Convex& convex, int k) {
 PartOfShape corner_of(const Cylinder& cylinder, int k) {
   const double z = k < 4 ? 1 : -1;
   const Vec3 w = Eigen::AngleAxisd((k % 4) * std::numbers::pi / 2, Vec3::UnitZ()) * Vec3::UnitX();
-  const std::string name = std::string(1, sign_name(z)) + std::to_string(90 * (k % 4));
+  std::string name(1, sign_name(z));
+  name.append(std::to_string(90 * (k % 4)));
   const Vec3 p = cylinder.radius * w + z * cylinder.half_length * Vec3::UnitZ();
   return point(name, 0, p, (w + z * Vec3::UnitZ()).normalized());
 }

@@ -80,6 +80,20 @@ Pair Model::pair(int pair) const {
   return make_pair(data_->tree, data_->shapes, key.a, key.b, key.part);
 }
 
+std::map<std::pair<std::string, std::string>, int> Model::pair_kinds() const {
+  std::map<std::pair<std::string, std::string>, int> kinds;
+  const std::vector<PlacedShape>& shapes = data_->shapes;
+  if (data_->pairs.empty()) return kinds;
+  for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(shapes.size()); ++j) {
+      const int count = data_->pairs.count(i, j);
+      if (count == 0) continue;
+      kinds[std::minmax(shape_name(shapes[i].shape), shape_name(shapes[j].shape))] += count;
+    }
+  }
+  return kinds;
+}
+
 std::vector<TreeSolution> Model::solvers() const {
   std::vector<TreeSolution> out;
   for (const PackedGroup& group : data_->packed.groups) {

@@ -111,6 +111,8 @@ class SALTUS_EXPORT Model {
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are
   Pair pair(int pair) const;                      ///< what the pair of this number is of
   std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
+  /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
+  std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
   std::vector<TreeSolution> solvers() const;      ///< how steps solve its trees
 
   /// A copy of this model without any pair: bodies pass through each other.
