@@ -23,7 +23,9 @@ set(SALTUS_SOURCES
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
   cpp/src/collision/contact.cpp
+  cpp/src/collision/facets.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/hull.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/sphere_box.cpp
   cpp/src/collision/sphere_capsule.cpp
