@@ -39,6 +39,7 @@ set(SALTUS_SOURCES
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
   cpp/src/model/pairs.cpp
+  cpp/src/model/shape_checks.cpp
   cpp/src/model/topology.cpp
   # variational
   cpp/src/variational/arc.cpp
@@ -56,11 +57,14 @@ set(SALTUS_SOURCES
   cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
+  cpp/src/urdf/attributes.cpp
+  cpp/src/urdf/collision_meshes.cpp
   cpp/src/urdf/document.cpp
   cpp/src/urdf/element_checks.cpp
   cpp/src/urdf/extension.cpp
   cpp/src/urdf/geometry.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
   cpp/src/urdf/numbers.cpp
   cpp/src/urdf/parse.cpp

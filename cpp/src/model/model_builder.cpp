@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/assembly.hpp"
+#include "model/shape_checks.hpp"
 
 namespace saltus {
 namespace {
@@ -37,14 +38,6 @@ void check_new_name(const Items& items, const std::string& element, const std::s
     }
   }
 }
-
-struct SizeOfShape {
-  Vec3 operator()(const Sphere& s) const { return Vec3::Constant(s.radius); }
-  Vec3 operator()(const Capsule& c) const { return {c.radius, c.radius, c.half_length}; }
-  Vec3 operator()(const Box& b) const { return b.half; }
-  Vec3 operator()(const Cylinder& c) const { return {c.radius, c.radius, c.half_length}; }
-  Vec3 operator()(const HalfSpace&) const { return Vec3::Ones(); }
-};
 
 }  // namespace
 
@@ -127,14 +120,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
 
 ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shape,
                                       const Pose& X_LG) {
-  const Vec3 size = std::visit(SizeOfShape{}, shape);
-  const bool half_length_may_be_zero = std::holds_alternative<Capsule>(shape) && size[2] == 0;
-  if (!size.allFinite() || (size.head<2>().array() <= 0).any() ||
-      (size[2] <= 0 && !half_length_may_be_zero)) {
-    throw ModelError("link " + quoted(link) + " has a " + shape_name(shape) + " of size " +
-                         show(size) + "; sizes are finite and positive",
-                     "link", link);
-  }
+  check_shape(shape, link);
   if (std::holds_alternative<HalfSpace>(shape) && link != root_) {
     throw ModelError("link " + quoted(link) + " carries a half-space, which only the root link " +
                          quoted(root_) + " may",

@@ -1,29 +1,9 @@
 #include "urdf/extension.hpp"
 
-#include "urdf/numbers.hpp"
-#include "urdf/rewrite.hpp"
+#include "urdf/attributes.hpp"
 
 namespace saltus::reader {
 namespace {
-
-double number(const XMLElement& element, const char* name, double otherwise) {
-  const std::vector<double> values = parse_numbers(attribute(element, name)).values;
-  return values.empty() ? otherwise : values.front();
-}
-
-Vec3 vector(const XMLElement& element, const char* name, const Vec3& otherwise) {
-  const std::vector<double> values = parse_numbers(attribute(element, name)).values;
-  return values.empty() ? otherwise : Vec3(values[0], values[1], values[2]);
-}
-
-Pose origin(const XMLElement& element) {
-  const XMLElement* origin = element.FirstChildElement("origin");
-  if (origin == nullptr) return {};
-  const std::vector<double> q = parse_numbers(attribute(*origin, "quat_xyzw")).values;
-  const Vec3 rpy = vector(*origin, "rpy", Vec3::Zero());
-  return {q.empty() ? rotation_from_rpy(rpy[0], rpy[1], rpy[2]) : rotation_from_quaternion(q),
-          vector(*origin, "xyz", Vec3::Zero())};
-}
 
 std::string link(const Document& document, const XMLElement& element, const char* name) {
   const std::string link = attribute(element, name);
@@ -56,6 +36,9 @@ void add(const Document& document, const XMLElement& element, ModelBuilder& buil
     builder.add_shape(link(document, element, "link"),
                       Capsule{number(element, "radius", 0), 0.5 * number(element, "length", 0)},
                       origin(element));
+  } else if (kind == "ellipsoid") {
+    builder.add_shape(link(document, element, "link"),
+                      Ellipsoid{vector(element, "radii", Vec3::Zero())}, origin(element));
   } else if (kind == "exclude") {
     builder.add_exclusion(link(document, element, "link1"), link(document, element, "link2"));
   }
@@ -69,6 +52,24 @@ void add_extension(const Document& document, ModelBuilder& builder) {
       add(document, *e, builder);
     }
   }
+}
+
+std::map<std::string, MeshUse> mesh_uses(const Document& document) {
+  const std::map<std::string, MeshUse> uses = {{"hull", MeshUse::hull}, {"none", MeshUse::none}};
+  std::map<std::string, MeshUse> found;
+  for (const XMLElement* block : document.all("saltus")) {
+    for (auto e = block->FirstChildElement("mesh"); e; e = e->NextSiblingElement("mesh")) {
+      const Owner owner{"mesh", ""};
+      const std::string use = attribute(*e, "use"), of = link(document, *e, "link");
+      if (uses.count(use) == 0) {
+        document.fail(*e, owner, "has use=" + in_quotes(use) + "; known are hull, none");
+      }
+      if (!found.emplace(of, uses.at(use)).second) {
+        document.fail(*e, owner, "is the second for link " + in_quotes(of));
+      }
+    }
+  }
+  return found;
 }
 
 }  // namespace saltus::reader

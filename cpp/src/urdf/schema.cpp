@@ -78,19 +78,25 @@ ElementRule joint() {
 
 ElementRule extension() {
   return {.name = "saltus",
-          .children = {{.name = "half_space",
-                        .numbers = {{"normal", 3}, {"offset"}},
-                        .texts = {{"name"}},
-                        .strict = true},
-                       {.name = "capsule",
-                        .numbers = {{"radius", 1, required, positive},
-                                    {"length", 1, required, positive}},
-                        .texts = {{"link", required}},
-                        .children = {origin()},
-                        .strict = true},
-                       {.name = "exclude",
-                        .texts = {{"link1", required}, {"link2", required}},
-                        .strict = true}},
+          .children =
+              {{.name = "half_space",
+                .numbers = {{"normal", 3}, {"offset"}},
+                .texts = {{"name"}},
+                .strict = true},
+               {.name = "capsule",
+                .numbers = {{"radius", 1, required, positive}, {"length", 1, required, positive}},
+                .texts = {{"link", required}},
+                .children = {origin()},
+                .strict = true},
+               {.name = "ellipsoid",
+                .numbers = {{"radii", 3, required, positive}},
+                .texts = {{"link", required}},
+                .children = {origin()},
+                .strict = true},
+               {.name = "mesh", .texts = {{"link", required}, {"use", required}}, .strict = true},
+               {.name = "exclude",
+                .texts = {{"link1", required}, {"link2", required}},
+                .strict = true}},
           .strict = true};
 }
 

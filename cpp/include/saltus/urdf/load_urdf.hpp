@@ -11,12 +11,17 @@
 //   * a block `<saltus>` below `<robot>`, which other readers skip:
 //       <half_space name="floor" normal="0 0 1" offset="0"/>    solid where normal.x <= offset
 //       <capsule link="arm" radius="0.03" length="0.3"> <origin xyz="0 0 0" rpy="0 0 0"/>
-//       </capsule> <exclude link1="a" link2="b"/>                          no gap is watched
-//       between these
+//       </capsule>
+//       <ellipsoid link="arm" radii="0.1 0.2 0.3"/>                        an <origin> as above
+//       <mesh link="arm" use="none"/>              its collision meshes are not used (hull: are)
+//       <exclude link1="a" link2="b"/>                      no gap is watched between these
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
-// Not used, and named in a warning: collision meshes and other shapes without a gap function,
-// elements and attributes that URDF does not know, `<mimic>` of a fixed joint. Skipped without a
+// Collision meshes (STL, OBJ, DAE) become their convex hulls, and one warning names them; one tells
+// of those that are not found. A mesh that is there and cannot be read is an error.
+//
+// Not used, and named in a warning: shapes without a gap function, elements and attributes that
+// URDF does not know, `<mimic>` of a fixed joint. Skipped without a
 // word: visuals (but one warning tells of their missing meshes), materials, transmissions, safety
 // controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
 // `ns:name`). The text itself stays available as the model's `source`.
@@ -29,6 +34,9 @@
 
 namespace saltus {
 
+/// What becomes of collision meshes: convex solids around them, or nothing.
+enum class MeshUse { hull, none };
+
 struct UrdfOptions {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
   /// Where `package://name/rest` is looked up: a folder that holds `name`, or `name` itself. The
@@ -40,6 +48,8 @@ struct UrdfOptions {
   JointType root_joint = JointType::fixed;
   /// How steps solve for velocities, see ModelBuilder::set_solver.
   TreeSolver solver = TreeSolver::automatic;
+  /// Of links for which the file has no `<mesh use=...>`.
+  MeshUse meshes = MeshUse::hull;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).
