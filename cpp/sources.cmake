@@ -34,6 +34,7 @@ set(SALTUS_SOURCES
   cpp/src/collision/sphere_sphere.cpp
   # model
   cpp/src/model/assembly.cpp
+  cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
@@ -72,6 +73,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/schema.cpp
   cpp/src/urdf/schema_checks.cpp
   cpp/src/urdf/source.cpp
+  cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp
 )
 

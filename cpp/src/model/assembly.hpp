@@ -53,10 +53,15 @@ class Assembly {
   void check_moments();       // of what is welded together; warns of links impossible alone
   void check_masses() const;  // joints that move no mass
 
+  // filter.cpp
+  void add_filter();  // exclusions of links and of groups
+  bool is_excluded(int link_a, int link_b) const;
+  bool is_excluded_body(int link_a, int link_b) const;  // where neither shape is a half-space
+  bool is_adjacent(int link_a, int link_b) const;
+
   // pairs.cpp
   void add_shapes();
   void add_pairs();
-  bool is_adjacent(int link_a, int link_b) const;
   bool is_watched(const PlacedShape& a, const PlacedShape& b) const;
 
   const ModelBuilder& b_;
@@ -71,7 +76,10 @@ class Assembly {
   std::vector<int> first_coordinate_;    // (specs)
   std::vector<Place> place_;             // (links)
   std::vector<int> group_;               // (links) first link of those welded together
-  std::set<std::pair<int, int>> excluded_;
+  using Pairs = std::set<std::pair<int, int>>;  // of indices, the lesser first
+  Pairs excluded_, excluded_bodies_;            // links
+  std::vector<int> collision_group_;            // (links) -1: in none
+  Pairs excluded_groups_;
 };
 
 }  // namespace saltus

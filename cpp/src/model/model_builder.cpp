@@ -149,7 +149,32 @@ ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& 
 }
 
 ModelBuilder& ModelBuilder::add_exclusion(const std::string& link_a, const std::string& link_b) {
-  exclusions_.push_back({link_a, link_b});
+  filter_.links.push_back({link_a, link_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_body_exclusion(const std::string& link_a,
+                                               const std::string& link_b) {
+  filter_.bodies.push_back({link_a, link_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_group(const std::string& link, const std::string& group) {
+  if (group.empty()) {
+    throw ModelError("link " + quoted(link) + " is put into a group without a name", "link", link);
+  }
+  filter_.group_of[link] = group;
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_group_exclusion(const std::string& group_a,
+                                                const std::string& group_b) {
+  filter_.groups.push_back({group_a, group_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_adjacent_links(AdjacentLinks adjacent) {
+  filter_.adjacent = adjacent;
   return *this;
 }
 

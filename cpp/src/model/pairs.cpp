@@ -16,31 +16,14 @@ void Assembly::add_shapes() {
     if (const int k = ++count[name]; k > 1) name.append("#").append(std::to_string(k));
     m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});
   }
-  for (const ModelBuilder::Exclusion& exclusion : b_.exclusions_) {
-    const int a = link_index(exclusion.a, "an exclusion names", "link", exclusion.a);
-    const int b = link_index(exclusion.b, "an exclusion names", "link", exclusion.b);
-    excluded_.insert(std::minmax(a, b));
-  }
-}
-
-// Links on both sides of one joint overlap at it by design. A free or planar joint is no such
-// place, and a half-space is a floor to be fallen on.
-bool Assembly::is_adjacent(int link_a, int link_b) const {
-  const auto hangs_on = [&](int child, int parent) {
-    const int joint = parent_joint_[group_[child]];
-    if (joint < 0) return false;
-    const JointSpec& spec = b_.joints_[joint];
-    if (spec.type == JointType::floating || spec.type == JointType::planar) return false;
-    return group_[link_.at(spec.parent)] == group_[parent];
-  };
-  return hangs_on(link_a, link_b) || hangs_on(link_b, link_a);
+  add_filter();
 }
 
 bool Assembly::is_watched(const PlacedShape& a, const PlacedShape& b) const {
-  if (a.joint == b.joint || excluded_.count(std::minmax(a.link, b.link)) > 0) return false;
+  if (a.joint == b.joint || is_excluded(a.link, b.link)) return false;
   const bool floor =
       std::holds_alternative<HalfSpace>(a.shape) || std::holds_alternative<HalfSpace>(b.shape);
-  return floor || !is_adjacent(a.link, b.link);
+  return floor || !is_excluded_body(a.link, b.link);
 }
 
 void Assembly::add_pairs() {

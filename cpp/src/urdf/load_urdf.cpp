@@ -12,6 +12,7 @@
 #include "urdf/geometry.hpp"
 #include "urdf/parse.hpp"
 #include "urdf/rewrite.hpp"
+#include "urdf/srdf.hpp"
 
 namespace saltus {
 namespace {
@@ -150,6 +151,7 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   meshes.warn(builder);
   warn_of_visuals(document, folders, builder);
   add_extension(document, builder);
+  if (options.srdf) add_srdf(*options.srdf, document, builder);
   located(document, [&] { builder.check(); });
   return builder;
 }
