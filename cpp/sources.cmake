@@ -28,7 +28,9 @@ set(SALTUS_SOURCES
   cpp/src/collision/corners.cpp
   cpp/src/collision/crossing.cpp
   cpp/src/collision/curvature.cpp
+  cpp/src/collision/facets.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/hull.cpp
   cpp/src/collision/pair_table.cpp
   cpp/src/collision/parts.cpp
   cpp/src/collision/shapes.cpp
@@ -39,11 +41,13 @@ set(SALTUS_SOURCES
   cpp/src/collision/sphere_sphere.cpp
   # model
   cpp/src/model/assembly.cpp
+  cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
   cpp/src/model/pairs.cpp
+  cpp/src/model/shape_checks.cpp
   cpp/src/model/topology.cpp
   # variational
   cpp/src/variational/arc.cpp
@@ -62,11 +66,14 @@ set(SALTUS_SOURCES
   cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
+  cpp/src/urdf/attributes.cpp
+  cpp/src/urdf/collision_meshes.cpp
   cpp/src/urdf/document.cpp
   cpp/src/urdf/element_checks.cpp
   cpp/src/urdf/extension.cpp
   cpp/src/urdf/geometry.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
   cpp/src/urdf/numbers.cpp
   cpp/src/urdf/parse.cpp
@@ -74,6 +81,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/schema.cpp
   cpp/src/urdf/schema_checks.cpp
   cpp/src/urdf/source.cpp
+  cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp
 )
 

@@ -1,4 +1,4 @@
-# Where Eigen, urdfdom, console_bridge and tinyxml2 come from.
+# Where Eigen, urdfdom, console_bridge, tinyxml2, Qhull and Assimp come from.
 #
 # A pip environment keeps C++ packages (named cmeel-*) below site-packages/cmeel.prefix, an ordinary CMake prefix
 # once it is known. Which site-packages, only a running Python can tell: pip's isolated builds put theirs on
@@ -51,5 +51,9 @@ find_package(urdfdom_headers REQUIRED)
 find_package(urdfdom REQUIRED)
 find_package(console_bridge REQUIRED)  # urdfdom's config forgets to look for it
 find_package(tinyxml2 REQUIRED)
+find_package(Qhull REQUIRED)
+find_package(assimp REQUIRED)
+# Assimp's own libraries (zlib, on Debian draco) are its shared library's affair: no need to have them for linking.
+set_property(TARGET assimp::assimp PROPERTY INTERFACE_LINK_LIBRARIES "")
 message(STATUS "saltus: Eigen ${Eigen3_VERSION} in ${Eigen3_DIR}")
 message(STATUS "saltus: urdfdom ${urdfdom_VERSION} in ${urdfdom_DIR}")

@@ -1,6 +1,7 @@
 // Collision floor: shapes, and the gap between two of them.
 #include "bindings.hpp"
 #include "saltus/collision/contact.hpp"
+#include "saltus/collision/hull.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -10,11 +11,24 @@ constexpr auto gap_class_doc = R"(The gap between two shapes a and b.
 `p_WA - p_WB == phi * n_W` and `|n_W| == 1`; `n_W` points from b to a; `phi < 0` is penetration.
 )";
 
+constexpr auto convex_doc = R"(The convex hull of points, facets that are coplanar joined.
+
+Parameters
+----------
+points : array_like, shape (n, 3)
+    [m] 4 or more, not in a plane; those inside are dropped.
+
+Raises
+------
+ModelError
+    Where they are too few, not finite, or thinner than 1e-6 of their length.
+)";
+
 constexpr auto gap_doc = R"(Signed distance, normal, witness points and curvature of two shapes.
 
 Parameters
 ----------
-a, b : Sphere, Capsule, Box, Cylinder or HalfSpace
+a, b : Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
 X_WA, X_WB : Pose
     Where they are.
 
@@ -55,9 +69,51 @@ std::string show(const Shape& shape) {
       return "Cylinder(" + show(c.radius) + ", " + show(c.half_length) + ")";
     }
     std::string operator()(const HalfSpace&) const { return "HalfSpace()"; }
+    std::string operator()(const Ellipsoid& e) const {
+      return "Ellipsoid((" + show(e.radii[0]) + ", " + show(e.radii[1]) + ", " + show(e.radii[2]) +
+             "))";
+    }
+    std::string operator()(const Convex& c) const {
+      return "Convex(" + std::to_string(c.hull->vertices.size()) + " vertices, " +
+             std::to_string(c.hull->faces.size()) + " faces)";
+    }
     static std::string show(double x) { return bindings::show(x); }
   };
   return std::visit(Show{}, shape);
+}
+
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+Convex make_convex(const Points& points) {
+  const py::gil_scoped_release release;
+  std::vector<Vec3> rows;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) rows.push_back(points.row(i));
+  return {std::make_shared<const Hull>(convex_hull(rows))};
+}
+
+Points vertices_of(const Convex& convex) {
+  const std::vector<Vec3>& vertices = convex.hull->vertices;
+  Points rows(static_cast<Eigen::Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = vertices[i];
+  }
+  return rows;
+}
+
+std::vector<std::vector<int>> faces_of(const Convex& convex) {
+  std::vector<std::vector<int>> faces;
+  for (const Hull::Face& face : convex.hull->faces) faces.push_back(face.corners);
+  return faces;
+}
+
+void bind_convex(py::module_& m) {
+  py::class_<Convex>(m, "Convex", convex_doc)
+      .def(py::init(&make_convex), py::arg("points"))
+      .def_property_readonly("vertices", &vertices_of,
+                             "[m] the points that are corners of the hull, shape (n, 3)")
+      .def_property_readonly("faces", &faces_of,
+                             "vertices of each face, counterclockwise seen from outside")
+      .def("__repr__", [](const Convex& c) { return show(c); });
 }
 
 void bind_shapes(py::module_& m) {
@@ -87,6 +143,11 @@ void bind_shapes(py::module_& m) {
                         "The solid z <= 0 of its frame; only the root link may carry one.")
       .def(py::init<>())
       .def("__repr__", [](const HalfSpace& h) { return show(h); });
+  py::class_<Ellipsoid>(m, "Ellipsoid", "(x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.")
+      .def(py::init([](const Vec3& radii) { return Ellipsoid{radii}; }), py::arg("radii"))
+      .def_readonly("radii", &Ellipsoid::radii, "[m] shape (3,)")
+      .def("__repr__", [](const Ellipsoid& e) { return show(e); });
+  bind_convex(m);
 }
 
 Gap checked_gap(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
@@ -112,7 +173,9 @@ void bind_gap(py::module_& m) {
         py::arg("a"), py::arg("b"));
   m.def("gap_table", &gap_table, gap_table_doc);
   m.def("shape_name", &shape_name,
-        "\"sphere\", \"capsule\", \"box\", \"cylinder\" or \"half_space\".", py::arg("shape"));
+        "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"half_space\", \"ellipsoid\" or "
+        "\"convex\".",
+        py::arg("shape"));
 }
 
 }  // namespace
@@ -123,7 +186,8 @@ void bind_collision(py::module_& m) {
   py::class_<PlacedShape>(m, "PlacedShape", placed_shape_doc)
       .def_readonly("name", &PlacedShape::name,
                     "the link's name, \"#k\" added where a link has several")
-      .def_readonly("shape", &PlacedShape::shape, "Sphere, Capsule, Box, Cylinder or HalfSpace")
+      .def_readonly("shape", &PlacedShape::shape,
+                    "Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex")
       .def_readonly("link", &PlacedShape::link, "index of its link in the model's `links`")
       .def("__repr__", [](const PlacedShape& s) {
         return "PlacedShape('" + s.name + "', " + show(s.shape) + ")";

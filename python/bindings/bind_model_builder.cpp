@@ -1,4 +1,6 @@
 // Model floor: describing a model link by link.
+#include <pybind11/native_enum.h>
+
 #include "bindings.hpp"
 #include "model_builder_docs.hpp"
 #include "saltus/model/model_builder.hpp"
@@ -41,6 +43,11 @@ void bind_model_builder(py::module_& m) {
       .def_readonly("offset", &Mimic::offset, "[rad | m]")
       .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; });
 
+  py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
+      .value("excluded", AdjacentLinks::excluded)
+      .value("watched", AdjacentLinks::watched)
+      .finalize();
+
   py::class_<ModelBuilder> c(m, "ModelBuilder", docs::model_builder);
   c.def(py::init<std::string, std::string>(), py::arg("name") = "model", py::arg("root") = "world");
   bind_add_joint(c);
@@ -63,6 +70,18 @@ void bind_model_builder(py::module_& m) {
            py::arg("name"), py::arg("normal"), py::arg("offset") = 0.0)
       .def("add_exclusion", &ModelBuilder::add_exclusion, self, docs::add_exclusion,
            py::arg("link_a"), py::arg("link_b"))
+      .def("add_body_exclusion", &ModelBuilder::add_body_exclusion, self, docs::add_body_exclusion,
+           py::arg("link_a"), py::arg("link_b"))
+      .def("set_group", &ModelBuilder::set_group, self, docs::set_group, py::arg("link"),
+           py::arg("group"))
+      .def("add_group_exclusion", &ModelBuilder::add_group_exclusion, self,
+           docs::add_group_exclusion, py::arg("group_a"), py::arg("group_b"))
+      .def(
+          "set_adjacent_links",
+          [](ModelBuilder& builder, const Unchecked<AdjacentLinks>& adjacent) -> ModelBuilder& {
+            return builder.set_adjacent_links(to_enum(adjacent, "adjacent"));
+          },
+          self, docs::set_adjacent_links, py::arg("adjacent"))
       .def("add_warning", &ModelBuilder::add_warning, self,
            "Adds to the model's `warnings`; returns the builder.", py::arg("text"))
       .def_property_readonly("warnings", &ModelBuilder::warnings)

@@ -1,4 +1,6 @@
 // URDF floor.
+#include <pybind11/native_enum.h>
+
 #include "bindings.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 
@@ -27,6 +29,9 @@ struct type_caster<saltus::bindings::PathLike> {
 namespace saltus::bindings {
 namespace {
 
+constexpr auto mesh_use_doc =
+    R"(What becomes of collision meshes: convex solids around them, or nothing.)";
+
 constexpr auto read_urdf_doc = R"(Reads URDF into a ModelBuilder, to add to it before `build`.
 
 Parameters
@@ -41,6 +46,10 @@ root_joint : JointType
     How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
 solver : TreeSolver
     How steps solve for velocities, see `ModelBuilder.set_solver`.
+meshes : MeshUse
+    What becomes of collision meshes, where the file does not say it.
+srdf : str or os.PathLike, optional
+    SRDF, a file or text: which links never collide.
 
 Returns
 -------
@@ -59,12 +68,18 @@ std::string to_path(const PathLike& path) {
 
 ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                        const py::typing::Iterable<PathLike>& package_dirs,
-                       const Unchecked<JointType>& root_joint,
-                       const Unchecked<TreeSolver>& solver) {
+                       const Unchecked<JointType>& root_joint, const Unchecked<TreeSolver>& solver,
+                       const Unchecked<MeshUse>& meshes, const std::optional<PathLike>& srdf) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");
   }
-  UrdfOptions options{gravity, {}, to_enum(root_joint, "root_joint"), to_enum(solver, "solver")};
+  UrdfOptions options{gravity,
+                      {},
+                      to_enum(root_joint, "root_joint"),
+                      to_enum(solver, "solver"),
+                      to_enum(meshes, "meshes"),
+                      {}};
+  if (srdf && !srdf->value.is_none()) options.srdf = to_path(*srdf);
   for (const py::handle path : package_dirs) {
     options.package_dirs.push_back(to_path({py::reinterpret_borrow<py::object>(path)}));
   }
@@ -76,11 +91,17 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
 }  // namespace
 
 void bind_urdf(py::module_& m) {
+  py::native_enum<MeshUse>(m, "MeshUse", "enum.Enum", mesh_use_doc)
+      .value("hull", MeshUse::hull)
+      .value("none", MeshUse::none)
+      .finalize();
   m.def("read_urdf", &read_urdf, read_urdf_doc, py::arg("path_or_text"), py::kw_only(),
         py::arg_v("gravity", UrdfOptions{}.gravity, "(0, 0, -9.81)"),
         py::arg_v("package_dirs", py::tuple(), "()"),
         py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"),
-        py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"));
+        py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
+        py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
+        py::arg_v("srdf", std::optional<PathLike>{}, "None"));
 }
 
 }  // namespace saltus::bindings

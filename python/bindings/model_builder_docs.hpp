@@ -122,9 +122,51 @@ offset : float
 constexpr auto add_exclusion =
     R"(Lets two links pass through each other: no gap is watched between them.
 
+Half-spaces belong to the root link.
+
 Parameters
 ----------
 link_a, link_b : str
+)";
+
+constexpr auto add_body_exclusion =
+    R"(As `add_exclusion`, but half-spaces of these links stay watched.
+
+Parameters
+----------
+link_a, link_b : str
+)";
+
+constexpr auto set_group = R"(Puts a link into a group, of which it has one at most.
+
+Parameters
+----------
+link : str
+group : str
+    Any name; `add_group_exclusion` says what it is good for.
+)";
+
+constexpr auto add_group_exclusion = R"(Lets the links of two groups pass through each other.
+
+Parameters
+----------
+group_a, group_b : str
+    The same one twice: its links pass through each other.
+)";
+
+constexpr auto set_adjacent_links = R"(Says whether links on both sides of one joint may collide.
+
+What is welded together never does.
+
+Parameters
+----------
+adjacent : AdjacentLinks
+)";
+
+constexpr auto adjacent_links =
+    R"(Are gaps watched between links on both sides of one joint? They overlap at it by design.
+
+Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
 )";
 
 constexpr auto build = R"(Checks the whole and freezes it.

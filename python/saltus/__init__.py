@@ -13,11 +13,14 @@ RuntimeError) or its kind `JammedError`.
 
 from saltus import scenes
 from saltus._core import (
+    AdjacentLinks,
     BodyInertia,
     Box,
     Capsule,
+    Convex,
     Coordinate,
     Cylinder,
+    Ellipsoid,
     Energies,
     Gap,
     Gaps,
@@ -31,6 +34,7 @@ from saltus._core import (
     JointType,
     LagrangianPartials,
     Link,
+    MeshUse,
     Mimic,
     Model,
     ModelBuilder,
@@ -69,12 +73,15 @@ from saltus.trajectory import Trajectory
 from saltus.urdf import ModelWarning, load_urdf
 
 __all__ = [
+    "AdjacentLinks",
     "BatchTrajectory",
     "BodyInertia",
     "Box",
     "Capsule",
+    "Convex",
     "Coordinate",
     "Cylinder",
+    "Ellipsoid",
     "Energies",
     "Gap",
     "Gaps",
@@ -88,6 +95,7 @@ __all__ = [
     "JointType",
     "LagrangianPartials",
     "Link",
+    "MeshUse",
     "Mimic",
     "Model",
     "ModelBuilder",

@@ -109,7 +109,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
     add("--out", metavar="FILE.h5", help="write the trajectory to this HDF5 file")
     add("--plot", metavar="FILE.png", help="write a picture; its ending says in which format")
     add("--all-impacts", action="store_true", help="print every impact and every impulse")
-    _add_floating(parser)
+    _add_loading(parser)
     parser.set_defaults(command=commands.simulate)
 
 
@@ -122,14 +122,15 @@ def _add_info(commands_of: Commands[Parser]) -> None:
     )
     parser.add_argument("file", metavar="FILE", help="URDF file")
     parser.add_argument("--pairs", action="store_true", help="print the name of every pair")
-    _add_floating(parser)
+    _add_loading(parser)
     parser.set_defaults(command=commands.info)
 
 
-def _add_floating(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--floating", action="store_true", help="the root link is free instead of fixed"
-    )
+def _add_loading(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--floating", action="store_true", help="the root link is free instead of fixed")
+    add("--srdf", metavar="FILE", help="SRDF file that says which links never collide")
+    add("--no-meshes", action="store_true", help="collision meshes are not used")
 
 
 def _show_warning(

@@ -88,8 +88,13 @@ def info(chosen: argparse.Namespace) -> int:
 
 def _load(chosen: argparse.Namespace) -> saltus.Model:
     root = saltus.JointType.floating if chosen.floating else saltus.JointType.fixed
-    # A path, whatever its name begins with: text is for programs.
-    return saltus.load_urdf(str(Path(chosen.file).absolute()), root_joint=root)
+    # Paths, whatever their names begin with: text is for programs.
+    return saltus.load_urdf(
+        str(Path(chosen.file).absolute()),
+        root_joint=root,
+        meshes=saltus.MeshUse.none if chosen.no_meshes else saltus.MeshUse.hull,
+        srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
+    )
 
 
 def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from saltus._core import (
     ImpactLaw,
     JointType,
+    MeshUse,
     Model,
     ModelError,
     StepOptions,
@@ -37,6 +38,7 @@ class UrdfOptions(TypedDict):
 
     root_joint: JointType
     solver: TreeSolver
+    meshes: MeshUse
 
 
 def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -122,6 +124,7 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     file.attrs["gravity"] = run.model.gravity
     file.attrs["root_joint"] = options["root_joint"].name
     file.attrs["solver"] = options["solver"].name
+    file.attrs["meshes"] = options["meshes"].name
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
@@ -148,6 +151,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             gravity=file.attrs["gravity"],
             root_joint=JointType[file.attrs["root_joint"]],
             solver=TreeSolver[file.attrs.get("solver", "automatic")],
+            meshes=MeshUse[file.attrs.get("meshes", "none")],
         ).build()
         if not pairs and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
@@ -180,7 +184,7 @@ def _check_model(
 
 
 def _urdf_options(model: Model) -> UrdfOptions | None:
-    """Return the `root_joint` and `solver` with which `load_urdf` makes this model of its text.
+    """Return the options with which `load_urdf` makes this model of its text.
 
     None where there is no text, or where the model was changed after it was read: links, joints,
     shapes or pairs then differ. A solver that makes the same of its trees gives the same bits.
@@ -189,8 +193,10 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
         return None
     # The joint that load_urdf added, if it did, is the only one below the model's root.
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
-    for root_joint, solver in product((JointType.fixed, *types), TreeSolver):
-        options: UrdfOptions = {"root_joint": root_joint, "solver": solver}
+    for meshes, root_joint, solver in product(
+        (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver
+    ):
+        options: UrdfOptions = {"root_joint": root_joint, "solver": solver, "meshes": meshes}
         try:
             again = read_urdf(model.source, **options).build()
         except ModelError:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import JointType, Model, ModelError, TreeSolver, read_urdf
+from saltus._core import JointType, MeshUse, Model, ModelError, TreeSolver, read_urdf
 
 
 class ModelWarning(UserWarning):
@@ -23,6 +23,8 @@ def load_urdf(
     package_dirs: Sequence[str | os.PathLike[str]] = (),
     root_joint: JointType = JointType.fixed,
     solver: TreeSolver = TreeSolver.automatic,
+    meshes: MeshUse = MeshUse.hull,
+    srdf: str | os.PathLike[str] | None = None,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -40,6 +42,11 @@ def load_urdf(
     solver : TreeSolver
         How steps solve for velocities: a matter of speed, answers differ by rounding. Rarely
         worth giving; `TreeSolver` says when, `Model.solvers` what became of it.
+    meshes : MeshUse
+        What becomes of collision meshes: their convex hulls, or nothing. The file's own word on a
+        link, `<mesh link="..." use="..."/>`, comes first.
+    srdf : str or os.PathLike, optional
+        SRDF, a file or text: which links never collide. Half-spaces stay watched.
 
     Returns
     -------
@@ -63,6 +70,8 @@ def load_urdf(
         package_dirs=package_dirs,
         root_joint=root_joint,
         solver=solver,
+        meshes=meshes,
+        srdf=srdf,
     )
     model = builder.build()
     for text in model.warnings:

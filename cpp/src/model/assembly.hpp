@@ -53,10 +53,13 @@ class Assembly {
   void check_moments();       // of what is welded together; warns of links impossible alone
   void check_masses() const;  // joints that move no mass
 
+  // filter.cpp
+  void add_filter();  // exclusions of links and of groups
+  std::vector<std::pair<int, int>> adjacent_links() const;
+
   // pairs.cpp
   void add_shapes();
   void add_pairs();
-  std::vector<std::pair<int, int>> adjacent_links() const;
 
   const ModelBuilder& b_;
   ModelData m_;
@@ -70,7 +73,11 @@ class Assembly {
   std::vector<int> first_coordinate_;    // (specs)
   std::vector<Place> place_;             // (links)
   std::vector<int> group_;               // (links) first link of those welded together
-  std::set<std::pair<int, int>> excluded_;
+  using Pairs = std::set<std::pair<int, int>>;  // of indices, the lesser first
+  Pairs excluded_;                              // links
+  Pairs excluded_bodies_;                       // links, where neither shape is a half-space
+  std::vector<int> collision_group_;            // (links) -1: in none
+  Pairs excluded_groups_;
 };
 
 }  // namespace saltus

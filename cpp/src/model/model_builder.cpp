@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/assembly.hpp"
+#include "model/shape_checks.hpp"
 
 namespace saltus {
 namespace {
@@ -37,16 +38,6 @@ void check_new_name(const Items& items, const std::string& element, const std::s
     }
   }
 }
-
-struct SizeOfShape {
-  Vec3 operator()(const Sphere& s) const { return Vec3::Constant(s.radius); }
-  Vec3 operator()(const Capsule& c) const { return {c.radius, c.radius, c.half_length}; }
-  Vec3 operator()(const Box& b) const { return b.half; }
-  Vec3 operator()(const Cylinder& c) const { return {c.radius, c.radius, c.half_length}; }
-  Vec3 operator()(const HalfSpace&) const { return Vec3::Ones(); }
-  Vec3 operator()(const Ellipsoid& e) const { return e.radii; }
-  Vec3 operator()(const Convex&) const { return Vec3::Ones(); }
-};
 
 }  // namespace
 
@@ -129,14 +120,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
 
 ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shape,
                                       const Pose& X_LG) {
-  const Vec3 size = std::visit(SizeOfShape{}, shape);
-  const bool half_length_may_be_zero = std::holds_alternative<Capsule>(shape) && size[2] == 0;
-  if (!size.allFinite() || (size.head<2>().array() <= 0).any() ||
-      (size[2] <= 0 && !half_length_may_be_zero)) {
-    throw ModelError("link " + quoted(link) + " has a " + shape_name(shape) + " of size " +
-                         show(size) + "; sizes are finite and positive",
-                     "link", link);
-  }
+  check_shape(shape, link);
   if (std::holds_alternative<HalfSpace>(shape) && link != root_) {
     throw ModelError("link " + quoted(link) + " carries a half-space, which only the root link " +
                          quoted(root_) + " may",
@@ -165,7 +149,32 @@ ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& 
 }
 
 ModelBuilder& ModelBuilder::add_exclusion(const std::string& link_a, const std::string& link_b) {
-  exclusions_.push_back({link_a, link_b});
+  filter_.links.push_back({link_a, link_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_body_exclusion(const std::string& link_a,
+                                               const std::string& link_b) {
+  filter_.bodies.push_back({link_a, link_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_group(const std::string& link, const std::string& group) {
+  if (group.empty()) {
+    throw ModelError("link " + quoted(link) + " is put into a group without a name", "link", link);
+  }
+  filter_.group_of[link] = group;
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_group_exclusion(const std::string& group_a,
+                                                const std::string& group_b) {
+  filter_.groups.push_back({group_a, group_b});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_adjacent_links(AdjacentLinks adjacent) {
+  filter_.adjacent = adjacent;
   return *this;
 }
 

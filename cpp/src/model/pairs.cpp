@@ -16,50 +16,33 @@ void Assembly::add_shapes() {
     if (const int k = ++count[name]; k > 1) name.append("#").append(std::to_string(k));
     m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});
   }
-  for (const ModelBuilder::Exclusion& exclusion : b_.exclusions_) {
-    const int a = link_index(exclusion.a, "an exclusion names", "link", exclusion.a);
-    const int b = link_index(exclusion.b, "an exclusion names", "link", exclusion.b);
-    excluded_.insert(std::minmax(a, b));
-  }
+  add_filter();
 }
 
-// Links on both sides of one joint overlap at it by design. A free or planar joint is no such
-// place, and a half-space is a floor to be fallen on.
-std::vector<std::pair<int, int>> Assembly::adjacent_links() const {
-  std::map<int, std::vector<int>> welded;  // links by the first of those welded together
-  for (int i = 0; i < static_cast<int>(group_.size()); ++i) welded[group_[i]].push_back(i);
-  std::vector<std::pair<int, int>> out;
-  for (const auto& [first, links] : welded) {
-    const int joint = parent_joint_[first];
-    if (joint < 0) continue;
-    const JointSpec& spec = b_.joints_[joint];
-    if (spec.type == JointType::floating || spec.type == JointType::planar) continue;
-    for (const int parent : welded[group_[link_.at(spec.parent)]]) {
-      for (const int child : links) out.emplace_back(parent, child);
-    }
-  }
-  return out;
-}
-
-// Shapes are sorted by link, so that the few links next to each are looked at, not all pairs.
+// By link, so that the few shapes of two links are looked at, not all pairs of shapes.
 void Assembly::add_pairs() {
   std::map<int, std::vector<int>> on_link;
+  PairRules rules;
   for (int i = 0; i < static_cast<int>(m_.shapes.size()); ++i) {
     on_link[m_.shapes[i].link].push_back(i);
+    rules.group.push_back(collision_group_[m_.shapes[i].link]);
   }
-  PairRules rules;
-  rules.group.assign(m_.shapes.size(), 0);
+  const auto is_floor = [&](int i) {
+    return std::holds_alternative<HalfSpace>(m_.shapes[i].shape);
+  };
   const auto exclude = [&](int link_a, int link_b, bool floors) {
     for (const int i : on_link[link_a]) {
       for (const int j : on_link[link_b]) {
-        const bool floor = std::holds_alternative<HalfSpace>(m_.shapes[i].shape) ||
-                           std::holds_alternative<HalfSpace>(m_.shapes[j].shape);
-        if (floors || !floor) rules.excluded.emplace_back(i, j);
+        if (floors || !(is_floor(i) || is_floor(j))) rules.excluded.emplace_back(i, j);
       }
     }
   };
+  rules.excluded_groups.assign(excluded_groups_.begin(), excluded_groups_.end());
   for (const auto& [a, b] : excluded_) exclude(a, b, true);
-  for (const auto& [a, b] : adjacent_links()) exclude(a, b, false);
+  for (const auto& [a, b] : excluded_bodies_) exclude(a, b, false);
+  if (b_.filter_.adjacent == AdjacentLinks::excluded) {
+    for (const auto& [a, b] : adjacent_links()) exclude(a, b, false);
+  }
   m_.pairs = PairTable(m_.shapes, rules);
 }
 

@@ -75,7 +75,7 @@ void Document::find_robot() {
   robot_ = xml_.FirstChildElement("robot");
   if (robot_ == nullptr) {
     throw ModelError(at(*root) + "no <robot> element: the root element is <" + root->Name() +
-                     ">, and URDF begins with <robot name=\"...\">");
+                     ">; URDF and SRDF begin with <robot name=\"...\">");
   }
   if (const XMLElement* second = robot_->NextSiblingElement("robot")) {
     throw ModelError(at(*second) + "a second <robot>; the first is in line " +

@@ -1,5 +1,6 @@
 #include "urdf/geometry.hpp"
 
+#include "urdf/attributes.hpp"
 #include "urdf/mesh_path.hpp"
 #include "urdf/rewrite.hpp"
 
@@ -36,16 +37,13 @@ Pose pose(const urdf::Pose& origin) {
           {origin.position.x, origin.position.y, origin.position.z}};
 }
 
-void add_shapes(const Document& document, const XMLElement& link, const urdf::Link& parsed,
-                const MeshFolders& folders, ModelBuilder& builder) {
-  const Owner owner{"link", parsed.name};
+void add_shapes(const XMLElement& link, const urdf::Link& parsed, CollisionMeshes& meshes,
+                ModelBuilder& builder) {
   auto next = parsed.collision_array.begin();
   for (auto c = link.FirstChildElement("collision"); c; c = c->NextSiblingElement("collision")) {
     if (const XMLElement* mesh = mesh_of(*c)) {
-      const std::string file = attribute(*mesh, "filename");
-      builder.add_warning(document.at(*mesh) + owner.show() + " has a collision mesh, " +
-                          in_quotes(file) + ", which is not used: meshes are not supported (" +
-                          describe(find_mesh(file, folders.urdf, folders.packages)) + ")");
+      const std::shared_ptr<const Hull> hull = meshes.hull(*mesh, parsed.name);
+      if (hull != nullptr) builder.add_shape(parsed.name, Convex{hull}, origin(*c));
     } else if (const XMLElement* usable = usable_shape(*c)) {
       if (next == parsed.collision_array.end()) {
         throw ModelError("urdfdom dropped a collision of link " + in_quotes(parsed.name), "link",

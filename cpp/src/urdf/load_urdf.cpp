@@ -12,6 +12,7 @@
 #include "urdf/geometry.hpp"
 #include "urdf/parse.hpp"
 #include "urdf/rewrite.hpp"
+#include "urdf/srdf.hpp"
 
 namespace saltus {
 namespace {
@@ -95,7 +96,7 @@ void add_root_joint(const Document& document, JointType type, const std::string&
 }
 
 void add_links_and_joints(const Document& document, const urdf::ModelInterface& parsed,
-                          const MeshFolders& folders, const std::string& fixed_link,
+                          CollisionMeshes& meshes, const std::string& fixed_link,
                           ModelBuilder& builder) {
   for (const XMLElement* e : document.all("link")) {
     const std::string name = attribute(*e, "name");
@@ -111,7 +112,7 @@ void add_links_and_joints(const Document& document, const urdf::ModelInterface& 
     builder.add_joint(joint_spec(joint, attribute(*e, "type")));
   }
   for (const XMLElement* e : document.all("link")) {
-    add_shapes(document, *e, *parsed.getLink(attribute(*e, "name")), folders, builder);
+    add_shapes(*e, *parsed.getLink(attribute(*e, "name")), meshes, builder);
   }
 }
 
@@ -142,12 +143,15 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   builder.set_gravity(options.gravity).set_solver(options.solver).set_source(source.text);
   for (const std::string& warning : warnings) builder.add_warning(warning);
   const MeshFolders folders{source.folder, options.package_dirs};
+  CollisionMeshes meshes(document, folders, options.meshes);
   located(document, [&] {
     if (!is_fixed) add_root_joint(document, options.root_joint, world, root, builder);
-    add_links_and_joints(document, *parsed, folders, world, builder);
+    add_links_and_joints(document, *parsed, meshes, world, builder);
   });
+  meshes.warn(builder);
   warn_of_visuals(document, folders, builder);
   add_extension(document, builder);
+  if (options.srdf) add_srdf(*options.srdf, document, builder);
   located(document, [&] { builder.check(); });
   return builder;
 }

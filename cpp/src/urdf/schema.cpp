@@ -77,21 +77,30 @@ ElementRule joint() {
 }
 
 ElementRule extension() {
-  return {.name = "saltus",
-          .children = {{.name = "half_space",
-                        .numbers = {{"normal", 3}, {"offset"}},
-                        .texts = {{"name"}},
-                        .strict = true},
-                       {.name = "capsule",
-                        .numbers = {{"radius", 1, required, positive},
-                                    {"length", 1, required, positive}},
-                        .texts = {{"link", required}},
-                        .children = {origin()},
-                        .strict = true},
-                       {.name = "exclude",
-                        .texts = {{"link1", required}, {"link2", required}},
-                        .strict = true}},
-          .strict = true};
+  return {
+      .name = "saltus",
+      .children =
+          {{.name = "half_space",
+            .numbers = {{"normal", 3}, {"offset"}},
+            .texts = {{"name"}},
+            .strict = true},
+           {.name = "capsule",
+            .numbers = {{"radius", 1, required, positive}, {"length", 1, required, positive}},
+            .texts = {{"link", required}},
+            .children = {origin()},
+            .strict = true},
+           {.name = "ellipsoid",
+            .numbers = {{"radii", 3, required, positive}},
+            .texts = {{"link", required}},
+            .children = {origin()},
+            .strict = true},
+           {.name = "mesh", .texts = {{"link", required}, {"use", required}}, .strict = true},
+           {.name = "exclude",
+            .texts = {{"link1"}, {"link2"}, {"group1"}, {"group2"}},
+            .strict = true},
+           {.name = "group", .texts = {{"name", required}, {"links", required}}, .strict = true},
+           {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}},
+      .strict = true};
 }
 
 }  // namespace

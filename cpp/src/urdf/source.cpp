@@ -29,20 +29,24 @@ std::string show(const std::string& path) {
   return "\"" + (path.size() <= 200 ? path : path.substr(0, 200) + "...") + "\"";
 }
 
-/// ": its URDF files are a, b", of the folder; "" where it has none.
-std::string urdf_files_in(const fs::path& folder, const std::string& whose) {
+std::string a(const std::string& format) { return (format == "SRDF" ? "an " : "a ") + format; }
+
+/// "; URDF files there are a, b"; "" where the folder has none.
+std::string files_in(const fs::path& folder, const std::string& format) {
+  const std::string ending = format == "SRDF" ? ".srdf" : ".urdf";
   std::vector<std::string> names;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() == ".urdf") names.push_back(it->path().filename().string());
+    if (it->path().extension() == ending) names.push_back(it->path().filename().string());
   }
   std::sort(names.begin(), names.end());
-  return names.empty() ? "" : whose + list_names(names);
+  return names.empty() ? "" : "; " + format + " files there are " + list_names(names);
 }
 
-[[noreturn]] void fail_missing(const std::string& path) {
+[[noreturn]] void fail_missing(const std::string& path, const std::string& format) {
   if (path.find_first_not_of(white_space) == std::string::npos) {
-    throw ModelError("an empty string is neither the path of a URDF file nor URDF text");
+    throw ModelError("an empty string is neither the path of " + a(format) + " file nor " + format +
+                     " text");
   }
   std::error_code error;
   const fs::path tried = fs::absolute(path, error).lexically_normal();
@@ -50,11 +54,11 @@ std::string urdf_files_in(const fs::path& folder, const std::string& whose) {
   std::string what = "no file " + show(path);
   if (tried.is_relative() || tried.string() != path) what += "; tried " + show(tried.string());
   if (path.find('\n') != std::string::npos) {
-    what += "; URDF text must begin with '<'";
+    what += "; " + format + " text must begin with '<'";
   } else if (!fs::is_directory(folder, error)) {
     what += "; the folder " + show(folder.string()) + " does not exist";
   } else {
-    what += urdf_files_in(folder, "; URDF files there are ");
+    what += files_in(folder, format);
   }
   throw ModelError(what);
 }
@@ -73,34 +77,34 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-Source read_path(const std::string& path) {
+Source read_path(const std::string& path, const std::string& format) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail_missing(path);
+  if (!fs::exists(status)) fail_missing(path, format);
   if (fs::is_directory(status)) {
-    throw ModelError(show(path) + " is a directory, not a URDF file" +
-                     urdf_files_in(path, "; URDF files there are "));
+    throw ModelError(show(path) + " is a directory, not " + a(format) + " file" +
+                     files_in(path, format));
   }
   return {path, fs::absolute(path, error).lexically_normal().parent_path(), read_file(path)};
 }
 
 }  // namespace
 
-Source read_source(const std::string& path_or_text) {
+Source read_source(const std::string& path_or_text, const std::string& format) {
   std::error_code error;
-  Source source = is_text(path_or_text) ? Source{"URDF text", fs::current_path(error), path_or_text}
-                                        : read_path(path_or_text);
+  Source source = is_text(path_or_text)
+                      ? Source{format + " text", fs::current_path(error), path_or_text}
+                      : read_path(path_or_text, format);
   if (source.text.find_first_not_of(white_space) == std::string::npos) {
     throw ModelError(source.label + ": the file is empty");
   }
   if (source.text.size() > max_size) {
     throw ModelError(source.label + ": more than " + std::to_string(max_size >> 20) +
-                     " MiB, the most that is read as URDF");
+                     " MiB, the most that is read as " + format);
   }
   if (source.text.find('\0') != std::string::npos) {
-    throw ModelError(source.label +
-                     ": not a text file (it contains zero bytes); URDF is XML in "
-                     "UTF-8 or ASCII");
+    throw ModelError(source.label + ": not a text file (it contains zero bytes); " + format +
+                     " is XML in UTF-8 or ASCII");
   }
   return source;
 }

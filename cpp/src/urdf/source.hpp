@@ -13,7 +13,7 @@ struct Source {
 };
 
 /// @throws ModelError on a path that cannot be read, with what was tried; on text that is empty,
-/// too long or binary.
-Source read_source(const std::string& path_or_text);
+/// too long or binary. `format`, "URDF" or "SRDF", is for messages.
+Source read_source(const std::string& path_or_text, const std::string& format = "URDF");
 
 }  // namespace saltus::reader

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ struct JointSpec {
   double damping = 0, friction = 0;
 };
 
+/// Are gaps watched between links on both sides of one joint? They overlap at it by design; a
+/// joint that lets them fly (floating, planar) is none of these.
+enum class AdjacentLinks { excluded, watched };
+
 /// Local mistakes throw at once, in add_ and set_; those that need the whole (unknown parents,
 /// cycles, two roots, joints that move no mass) in check() and build(). All are ModelError and
 /// carry the element and its name.
@@ -57,8 +62,16 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
   /// The solid below the plane normal.x = offset, fixed to the world; `name` as in pair names.
   ModelBuilder& add_half_space(const std::string& name, const Vec3& normal, double offset = 0);
-  /// No gap is watched between these links.
+  /// No gap is watched between these links; half-spaces belong to the root link.
   ModelBuilder& add_exclusion(const std::string& link_a, const std::string& link_b);
+  /// The same, but half-spaces of these links stay watched: for lists that know of none (SRDF).
+  ModelBuilder& add_body_exclusion(const std::string& link_a, const std::string& link_b);
+  /// Puts a link into a group, of which it has one at most; the last word holds.
+  ModelBuilder& set_group(const std::string& link, const std::string& group);
+  /// No gap is watched between links of these groups; a group may be named twice.
+  ModelBuilder& add_group_exclusion(const std::string& group_a, const std::string& group_b);
+  /// Excluded unless said otherwise. What is welded together is never watched.
+  ModelBuilder& set_adjacent_links(AdjacentLinks adjacent);
   ModelBuilder& add_warning(std::string text);
 
   void check() const;  ///< the checks of build() alone
@@ -75,13 +88,18 @@ class SALTUS_EXPORT ModelBuilder {
   struct Exclusion {
     std::string a, b;
   };
+  struct Filter {
+    std::vector<Exclusion> links, bodies, groups;
+    std::map<std::string, std::string> group_of;  // link -> group
+    AdjacentLinks adjacent = AdjacentLinks::excluded;
+  };
   std::string name_, root_, source_;
   Vec3 gravity_ = Vec3(0, 0, -9.81);
   TreeSolver solver_ = TreeSolver::automatic;
   std::vector<LinkSpec> links_;
   std::vector<JointSpec> joints_;
   std::vector<ShapeSpec> shapes_;
-  std::vector<Exclusion> exclusions_;
+  Filter filter_;
   std::vector<std::string> warnings_;
 
   friend class Assembly;  // build()'s worker, model/assembly.cpp

@@ -5,29 +5,40 @@
 // 1.2 are read alike. Beyond URDF:
 //   * joints of type "spherical" or "ball" are three revolutes (yaw, pitch, roll);
 //   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is the cylinder's, along
-//   z,
-//     without the two half balls;
+//     z, without the two half balls;
 //   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
 //   * a block `<saltus>` below `<robot>`, which other readers skip:
 //       <half_space name="floor" normal="0 0 1" offset="0"/>    solid where normal.x <= offset
 //       <capsule link="arm" radius="0.03" length="0.3"> <origin xyz="0 0 0" rpy="0 0 0"/>
-//       </capsule> <exclude link1="a" link2="b"/>                          no gap is watched
-//       between these
+//       </capsule>
+//       <ellipsoid link="arm" radii="0.1 0.2 0.3"/>                        an <origin> as above
+//       <mesh link="arm" use="none"/>              its collision meshes are not used (hull: are)
+//       <exclude link1="a" link2="b"/>                      no gap is watched between these
+//       <group name="pins" links="pin_1 pin_2"/>            a link is in one group at most
+//       <exclude group1="pins" group2="pins"/>              nor between links of these groups
+//       <adjacent_links gaps="watched"/>       see ModelBuilder::set_adjacent_links
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
-// Not used, and named in a warning: collision meshes and other shapes without a gap function,
-// elements and attributes that URDF does not know, `<mimic>` of a fixed joint. Skipped without a
-// word: visuals (but one warning tells of their missing meshes), materials, transmissions, safety
-// controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
-// `ns:name`). The text itself stays available as the model's `source`.
+// Collision meshes (STL, OBJ, DAE) become their convex hulls, and one warning names them; one tells
+// of those that are not found. A mesh that is there and cannot be read is an error.
+//
+// Not used, and named in a warning: shapes without a gap function, elements and attributes that
+// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: visuals (but one warning
+// tells of their missing meshes), materials, transmissions, safety controllers, limits of
+// acceleration and jerk, and other programs' elements (gazebo, sensor, `ns:name`). The text itself
+// stays available as the model's `source`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "saltus/model/model_builder.hpp"
 
 namespace saltus {
+
+/// What becomes of collision meshes: convex solids around them, or nothing.
+enum class MeshUse { hull, none };
 
 struct UrdfOptions {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
@@ -40,6 +51,12 @@ struct UrdfOptions {
   JointType root_joint = JointType::fixed;
   /// How steps solve for velocities, see ModelBuilder::set_solver.
   TreeSolver solver = TreeSolver::automatic;
+  /// Of links for which the file has no `<mesh use=...>`.
+  MeshUse meshes = MeshUse::hull;
+  /// SRDF, a file or text as load_urdf's argument: its `<disable_collisions>`,
+  /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
+  /// Half-spaces stay watched; links that the robot has not are named in a warning.
+  std::optional<std::string> srdf = {};
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).

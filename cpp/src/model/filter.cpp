@@ -1,0 +1,62 @@
+// Which links are let pass through each other: by pair, by group, by a joint between them.
+#include <algorithm>
+
+#include "model/assembly.hpp"
+
+namespace saltus {
+
+void Assembly::add_filter() {
+  const ModelBuilder::Filter& filter = b_.filter_;
+  const auto add_links = [&](const std::vector<ModelBuilder::Exclusion>& named, Pairs& pairs) {
+    for (const ModelBuilder::Exclusion& exclusion : named) {
+      const int a = link_index(exclusion.a, "an exclusion names", "link", exclusion.a);
+      const int b = link_index(exclusion.b, "an exclusion names", "link", exclusion.b);
+      pairs.insert(std::minmax(a, b));
+    }
+  };
+  add_links(filter.links, excluded_);
+  add_links(filter.bodies, excluded_bodies_);
+
+  std::vector<std::string> groups;
+  const auto find = [&](const std::string& group) {
+    return static_cast<int>(std::find(groups.begin(), groups.end(), group) - groups.begin());
+  };
+  collision_group_.assign(b_.links_.size(), -1);
+  for (const auto& [link, group] : filter.group_of) {
+    const int index = find(group);
+    if (index == static_cast<int>(groups.size())) groups.push_back(group);
+    const std::string user = "group " + quoted(group) + " names";
+    collision_group_[link_index(link, user, "group", group)] = index;
+  }
+  for (const ModelBuilder::Exclusion& exclusion : filter.groups) {
+    for (const std::string& group : {exclusion.a, exclusion.b}) {
+      if (find(group) < static_cast<int>(groups.size())) continue;
+      throw ModelError("an exclusion names group " + quoted(group) +
+                           ", which no link is in; groups are " +
+                           (groups.empty() ? "none" : list_names(groups)),
+                       "group", group);
+    }
+    const int a = find(exclusion.a), b = find(exclusion.b);
+    excluded_groups_.insert(std::minmax(a, b));
+  }
+}
+
+// Links on both sides of one joint overlap at it by design. A free or planar joint is no such
+// place, and a half-space is a floor to be fallen on.
+std::vector<std::pair<int, int>> Assembly::adjacent_links() const {
+  std::map<int, std::vector<int>> welded;  // links by the first of those welded together
+  for (int i = 0; i < static_cast<int>(group_.size()); ++i) welded[group_[i]].push_back(i);
+  std::vector<std::pair<int, int>> out;
+  for (const auto& [first, links] : welded) {
+    const int joint = parent_joint_[first];
+    if (joint < 0) continue;
+    const JointSpec& spec = b_.joints_[joint];
+    if (spec.type == JointType::floating || spec.type == JointType::planar) continue;
+    for (const int parent : welded.at(group_[link_.at(spec.parent)])) {
+      for (const int child : links) out.emplace_back(parent, child);
+    }
+  }
+  return out;
+}
+
+}  // namespace saltus

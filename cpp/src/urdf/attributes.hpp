@@ -1,0 +1,15 @@
+// What an attribute or an `<origin>` holds, once the checks have passed.
+#pragma once
+
+#include "saltus/spatial/spatial.hpp"
+#include "urdf/document.hpp"
+
+namespace saltus::reader {
+
+double number(const XMLElement& element, const char* name, double otherwise);
+Vec3 vector(const XMLElement& element, const char* name, const Vec3& otherwise);
+
+/// Of the `<origin>` below the element; none is the identity.
+Pose origin(const XMLElement& element);
+
+}  // namespace saltus::reader

@@ -1,0 +1,73 @@
+#include "urdf/collision_meshes.hpp"
+
+#include "urdf/attributes.hpp"
+#include "urdf/extension.hpp"
+#include "urdf/mesh_file.hpp"
+#include "urdf/mesh_path.hpp"
+
+namespace saltus::reader {
+
+CollisionMeshes::CollisionMeshes(const Document& document, MeshFolders folders, MeshUse use)
+    : document_(document),
+      folders_(std::move(folders)),
+      use_(use),
+      use_of_link_(mesh_uses(document)) {}
+
+std::shared_ptr<const Hull> CollisionMeshes::hull(const XMLElement& mesh, const std::string& link) {
+  const auto said = use_of_link_.find(link);
+  if ((said == use_of_link_.end() ? use_ : said->second) == MeshUse::none) return nullptr;
+  const Owner owner{"link", link};
+  const std::string name = attribute(mesh, "filename");
+  const std::string subject = "has a collision mesh, " + in_quotes(name) + ", ";
+  const Vec3 scale = vector(mesh, "scale", Vec3::Ones());
+  if ((scale.array() == 0).any()) {
+    document_.fail(mesh, owner,
+                   subject + "with scale=" + in_quotes(attribute(mesh, "scale")) +
+                       ": a scale of zero makes it flat");
+  }
+  const MeshPath path = find_mesh(name, folders_.urdf, folders_.packages);
+  if (path.found.empty()) {
+    if (++missing_ == 1) {
+      first_missing_ =
+          document_.at(mesh) + owner.show() + " " + subject + "which is " + describe(path);
+    }
+    return nullptr;
+  }
+  try {
+    if (used_.empty()) first_used_ = document_.at(mesh) + owner.show() + " ";
+    return hull_of(path.found, scale, name);
+  } catch (const ModelError& error) {
+    document_.fail(mesh, owner,
+                   subject + "which " + error.what() + " (" + describe(path) + "); <mesh link=" +
+                       in_quotes(link) + " use=\"none\"/> in <saltus> does without it");
+  }
+}
+
+std::shared_ptr<const Hull> CollisionMeshes::hull_of(const std::filesystem::path& file,
+                                                     const Vec3& scale, const std::string& name) {
+  std::shared_ptr<const Hull>& hull =
+      hulls_[{file.lexically_normal().string(), scale[0], scale[1], scale[2]}];
+  if (hull != nullptr) return hull;
+  std::vector<Vec3> vertices = read_mesh(file);
+  for (Vec3& v : vertices) v = v.cwiseProduct(scale);
+  hull = std::make_shared<const Hull>(convex_hull(vertices, "has no convex hull"));
+  used_.push_back(in_quotes(name) + " (" + std::to_string(hull->vertices.size()) + " of its " +
+                  std::to_string(vertices.size()) + " vertices)");
+  return hull;
+}
+
+void CollisionMeshes::warn(ModelBuilder& builder) const {
+  if (used_.size() == 1) {
+    builder.add_warning(first_used_ +
+                        "has a collision mesh, used as its convex hull: " + used_.front());
+  } else if (!used_.empty()) {
+    builder.add_warning(first_used_ + "and below: " + std::to_string(used_.size()) +
+                        " collision meshes are used as their convex hulls: " + list_names(used_));
+  }
+  if (missing_ == 0) return;
+  const std::string others =
+      missing_ == 1 ? "" : "; so are " + std::to_string(missing_ - 1) + " others";
+  builder.add_warning(first_missing_ + others);
+}
+
+}  // namespace saltus::reader

@@ -1,0 +1,86 @@
+#include "urdf/srdf.hpp"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "saltus/model/model.hpp"
+
+namespace saltus::reader {
+namespace {
+
+using LinkPairs = std::set<std::pair<std::string, std::string>>;  // the lesser name first
+
+/// One SRDF file beside the robot's URDF.
+class Srdf {
+ public:
+  Srdf(const Source& source, const Document& urdf) : document_(source), urdf_(urdf) {}
+
+  /// As MoveIt has it: what is disabled by name is disabled, whatever is enabled.
+  LinkPairs excluded() {
+    LinkPairs pairs = named("disable_collisions");
+    const LinkPairs enabled = named("enable_collisions");
+    for (const XMLElement* e : document_.all("disable_default_collisions")) {
+      const std::string link = given(*e, "link");
+      if (!is_known(*e, link)) continue;
+      for (const std::string& other : urdf_.names("link")) {
+        const std::pair<std::string, std::string> pair = std::minmax(link, other);
+        if (other != link && enabled.count(pair) == 0) pairs.insert(pair);
+      }
+    }
+    return pairs;
+  }
+
+  /// About links that the robot has not; "" where there is none.
+  std::string warning() const {
+    if (unknown_.empty()) return "";
+    return first_unknown_ + "and below: links that the robot has not, " + list_names(unknown_) +
+           " (not used); its links are " + list_names(urdf_.names("link"));
+  }
+
+ private:
+  std::string given(const XMLElement& element, const char* name) const {
+    const std::string value = attribute(element, name);
+    if (value.empty()) {
+      document_.fail(element, {element.Name(), ""}, "is without attribute " + in_quotes(name));
+    }
+    return value;
+  }
+
+  bool is_known(const XMLElement& element, const std::string& link) {
+    if (urdf_.find("link", link) != nullptr) return true;
+    if (unknown_.empty()) {
+      first_unknown_ = document_.at(element) + Owner{element.Name(), ""}.show() + " ";
+    }
+    if (std::find(unknown_.begin(), unknown_.end(), link) == unknown_.end()) {
+      unknown_.push_back(link);
+    }
+    return false;
+  }
+
+  LinkPairs named(const char* element) {
+    LinkPairs pairs;
+    for (const XMLElement* e : document_.all(element)) {
+      const std::string a = given(*e, "link1"), b = given(*e, "link2");
+      const bool a_known = is_known(*e, a), b_known = is_known(*e, b);
+      if (a_known && b_known) pairs.insert(std::minmax(a, b));
+    }
+    return pairs;
+  }
+
+  const Document document_;
+  const Document& urdf_;
+  std::string first_unknown_;
+  std::vector<std::string> unknown_;
+};
+
+}  // namespace
+
+void add_srdf(const std::string& path_or_text, const Document& urdf, ModelBuilder& builder) {
+  Srdf srdf(read_source(path_or_text, "SRDF"), urdf);
+  for (const auto& [a, b] : srdf.excluded()) builder.add_body_exclusion(a, b);
+  const std::string warning = srdf.warning();
+  if (!warning.empty()) builder.add_warning(warning);
+}
+
+}  // namespace saltus::reader
