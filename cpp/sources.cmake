@@ -19,6 +19,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/partials.cpp
   # collision
   cpp/src/collision/broad_phase.cpp
+  cpp/src/collision/capsule_capsule.cpp
   cpp/src/collision/chord.cpp
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
@@ -26,10 +27,13 @@ set(SALTUS_SOURCES
   cpp/src/collision/core.cpp
   cpp/src/collision/curvature.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/half_space_pairs.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/sphere_box.cpp
   cpp/src/collision/sphere_capsule.cpp
+  cpp/src/collision/sphere_convex.cpp
   cpp/src/collision/sphere_cylinder.cpp
+  cpp/src/collision/sphere_ellipsoid.cpp
   cpp/src/collision/sphere_half_space.cpp
   cpp/src/collision/sphere_sphere.cpp
   # model
