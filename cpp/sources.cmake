@@ -24,11 +24,19 @@ set(SALTUS_SOURCES
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
   cpp/src/collision/contact.cpp
+  cpp/src/collision/convex_gap.cpp
+  cpp/src/collision/convex_pairs.cpp
   cpp/src/collision/core.cpp
   cpp/src/collision/curvature.cpp
+  cpp/src/collision/epa.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/gjk.cpp
   cpp/src/collision/half_space_pairs.cpp
+  cpp/src/collision/lay_flat.cpp
+  cpp/src/collision/meeting.cpp
   cpp/src/collision/shapes.cpp
+  cpp/src/collision/solid.cpp
+  cpp/src/collision/solid_features.cpp
   cpp/src/collision/sphere_box.cpp
   cpp/src/collision/sphere_capsule.cpp
   cpp/src/collision/sphere_convex.cpp

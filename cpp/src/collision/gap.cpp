@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "collision/capsule_capsule.hpp"
+#include "collision/convex_pairs.hpp"
 #include "collision/half_space_pairs.hpp"
 #include "collision/sphere_box.hpp"
 #include "collision/sphere_capsule.hpp"
