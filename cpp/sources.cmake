@@ -29,9 +29,11 @@ set(SALTUS_SOURCES
   cpp/src/collision/core.cpp
   cpp/src/collision/curvature.cpp
   cpp/src/collision/epa.cpp
+  cpp/src/collision/facets.cpp
   cpp/src/collision/gap.cpp
   cpp/src/collision/gjk.cpp
   cpp/src/collision/half_space_pairs.cpp
+  cpp/src/collision/hull.cpp
   cpp/src/collision/lay_flat.cpp
   cpp/src/collision/meeting.cpp
   cpp/src/collision/shapes.cpp

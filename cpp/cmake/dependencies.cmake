@@ -1,4 +1,4 @@
-# Where Eigen, urdfdom, console_bridge and tinyxml2 come from.
+# Where Eigen, urdfdom, console_bridge, tinyxml2 and Qhull come from.
 #
 # A pip environment keeps C++ packages (named cmeel-*) below site-packages/cmeel.prefix, an ordinary CMake prefix
 # once it is known. Which site-packages, only a running Python can tell: pip's isolated builds put theirs on
@@ -51,5 +51,6 @@ find_package(urdfdom_headers REQUIRED)
 find_package(urdfdom REQUIRED)
 find_package(console_bridge REQUIRED)  # urdfdom's config forgets to look for it
 find_package(tinyxml2 REQUIRED)
+find_package(Qhull REQUIRED)
 message(STATUS "saltus: Eigen ${Eigen3_VERSION} in ${Eigen3_DIR}")
 message(STATUS "saltus: urdfdom ${urdfdom_VERSION} in ${urdfdom_DIR}")

@@ -29,9 +29,10 @@ struct Hull {
   Vec3 center;                       ///< [m] mean of the vertices, inside
 };
 
-/// The convex hull of points, coplanar facets joined to one face; by Qhull.
-/// @throws ModelError where they are fewer than 4, not finite, or lie in a plane (`what` names
-/// them in the message).
+/// The convex hull of points, facets that are coplanar to rounding joined to one face; by Qhull.
+/// Its vertices are some of the points, unchanged and in their order. Thread-safe.
+/// @throws ModelError where they are fewer than 4, not finite, or lie in a plane, which is to say
+/// that they are thinner than 1e-6 of their length (`what` names them in the message).
 SALTUS_EXPORT Hull convex_hull(const std::vector<Vec3>& points, const std::string& what = "points");
 
 }  // namespace saltus
