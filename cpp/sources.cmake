@@ -20,23 +20,35 @@ set(SALTUS_SOURCES
   # collision
   cpp/src/collision/ball_tree.cpp
   cpp/src/collision/broad_phase.cpp
+  cpp/src/collision/capsule_capsule.cpp
   cpp/src/collision/chord.cpp
   cpp/src/collision/chord_bounds.cpp
   cpp/src/collision/chord_path.cpp
   cpp/src/collision/contact.cpp
+  cpp/src/collision/convex_gap.cpp
+  cpp/src/collision/convex_pairs.cpp
   cpp/src/collision/core.cpp
   cpp/src/collision/corners.cpp
   cpp/src/collision/crossing.cpp
   cpp/src/collision/curvature.cpp
+  cpp/src/collision/epa.cpp
   cpp/src/collision/facets.cpp
   cpp/src/collision/gap.cpp
+  cpp/src/collision/gjk.cpp
+  cpp/src/collision/half_space_pairs.cpp
   cpp/src/collision/hull.cpp
+  cpp/src/collision/lay_flat.cpp
+  cpp/src/collision/meeting.cpp
   cpp/src/collision/pair_table.cpp
   cpp/src/collision/parts.cpp
   cpp/src/collision/shapes.cpp
+  cpp/src/collision/solid.cpp
+  cpp/src/collision/solid_features.cpp
   cpp/src/collision/sphere_box.cpp
   cpp/src/collision/sphere_capsule.cpp
+  cpp/src/collision/sphere_convex.cpp
   cpp/src/collision/sphere_cylinder.cpp
+  cpp/src/collision/sphere_ellipsoid.cpp
   cpp/src/collision/sphere_half_space.cpp
   cpp/src/collision/sphere_sphere.cpp
   # model

@@ -9,9 +9,14 @@
 #include <limits>
 #include <utility>
 
+#include "collision/capsule_capsule.hpp"
+#include "collision/convex_pairs.hpp"
+#include "collision/half_space_pairs.hpp"
 #include "collision/sphere_box.hpp"
 #include "collision/sphere_capsule.hpp"
+#include "collision/sphere_convex.hpp"
 #include "collision/sphere_cylinder.hpp"
+#include "collision/sphere_ellipsoid.hpp"
 #include "collision/sphere_half_space.hpp"
 #include "collision/sphere_sphere.hpp"
 

@@ -41,6 +41,16 @@ struct Random {
   }
 };
 
+/// The hull of 4 to 60 points in an ellipsoid, half of them on its surface: flat and round ones.
+inline Convex random_convex(const Vec3& radii, Random& random) {
+  std::vector<Vec3> points;
+  for (int k = random.index(57) + 4; k > 0; --k) {
+    points.push_back(radii.cwiseProduct(random.direction()) *
+                     (k % 2 == 0 ? random.uniform(0, 1) : 1));
+  }
+  return {std::make_shared<const Hull>(convex_hull(points))};
+}
+
 /// A shape of the kind that `shape_name` calls so, with sizes of 0.1 to 0.6.
 inline Shape random_shape(const std::string& kind, Random& random) {
   const auto size = [&] { return random.uniform(0.1, 0.6); };
@@ -49,6 +59,8 @@ inline Shape random_shape(const std::string& kind, Random& random) {
   if (kind == "box") return Box{Vec3(size(), size(), size())};
   if (kind == "cylinder") return Cylinder{size(), size()};
   if (kind == "half_space") return HalfSpace{};
+  if (kind == "ellipsoid") return Ellipsoid{Vec3(size(), size(), size())};
+  if (kind == "convex") return random_convex({size(), size(), size()}, random);
   throw std::invalid_argument("no random shape for kind " + kind);
 }
 

@@ -1,0 +1,106 @@
+// The gap of any two convex cores: the greatest separation
+//
+//   s(n) = min n.x - max n.y     over unit n, x in A, y in B
+//
+// A first n (gjk.cpp apart, epa.cpp overlapping) tells which features may face each other. Each two
+// of them give an exact n: a face its normal, any others the place where they meet (meeting.cpp).
+// Such a meeting is a stationary value of s if its witnesses lie within their features and the
+// whole cores are not closer along n: s(n) = d. Apart, that is the greatest separation of all;
+// overlapping, it is if it is not below that of the first n, which is searched for globally.
+#include "collision/convex_gap.hpp"
+
+#include <cmath>
+
+#include "collision/gjk.hpp"
+#include "collision/meeting.hpp"
+
+namespace saltus {
+namespace {
+
+struct Search {
+  const Solid &A, &B;
+  double rounding;  ///< [m]
+  Meeting best;
+  bool flat = false;  ///< best is along the normal of a face
+  double first = 0;   ///< s of the first n
+  bool done = false;
+
+  void offer(const Meeting& x, bool is_flat) {
+    const bool sound = x.past <= rounding && x.s >= x.d - rounding;
+    const bool greatest = x.d > 0 || x.s >= first - rounding;
+    // of equal separations the witnesses tell, which move by the root of what n moves s
+    const bool better = x.s > best.s + rounding || (x.s > best.s - rounding && x.past < best.past);
+    if (!better && !(sound && greatest)) return;
+    best = x;
+    flat = is_flat;
+    done = sound && greatest;
+  }
+};
+
+Meeting along(const Solid& A, const Solid& B, const Vec3& n) {
+  Meeting out{.n = n, .a = {}, .b = {}};
+  out.a.x = support(A, -n);
+  out.b.x = support(B, n);
+  out.s = out.d = n.dot(out.a.x - out.b.x);
+  return out;
+}
+
+void offer_face(const Vec3& n, Search& search) {
+  Meeting x = along(search.A, search.B, n);
+  x.past = 1e300;  // the corner that is farthest need not be over the face: lay_flat finds one
+  lay_flat(search.A, search.B, search.rounding, x);
+  search.offer(x, true);
+}
+
+void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, Search& search) {
+  for (int k = 0; k < b.faces && !search.done; ++k) offer_face(b.normals[k], search);
+  for (int k = 0; k < a.faces && !search.done; ++k) offer_face(-a.normals[k], search);
+  for (int i = 0; i < a.count; ++i) {
+    for (int j = 0; j < b.count && !search.done; ++j) {
+      Meeting x{.n = n, .a = a.features[i], .b = b.features[j]};
+      if (!meet(search.A, search.B, x.a, x.b, x.n)) continue;
+      x.past = std::fmax(0, std::fmax(beyond(x.a), beyond(x.b)));
+      x.s = x.n.dot(difference(search.A, search.B, x.n));
+      x.d = x.n.dot(x.a.x - x.b.x);
+      search.offer(x, false);
+    }
+  }
+}
+
+void search_from(const Vec3& first, Search& search) {
+  Meeting start = along(search.A, search.B, first);
+  start.past = 1e300;
+  search.first = start.s;
+  if (search.best.n.isZero(0) || start.s > search.best.s) search.best = start;
+  Nearby a, b;
+  const bool curved = search.A.curved() || search.B.curved();
+  double width = curved ? 0.02 : 1e-3;
+  for (int round = 0; round < 4 && !search.done; ++round) {
+    const Vec3 n = search.best.n;
+    find_nearby(search.A, -n, width, a);
+    find_nearby(search.B, n, width, b);
+    offer_all(a, b, n, search);
+    width *= 5;
+  }
+}
+
+}  // namespace
+
+Gap convex_gap(const Solid& a, const Solid& b, const Vec3& origin) {
+  Search search{a, b, 2e-15 * (a.length + b.length + (a.p - b.p).norm()), {}};
+  search.best.n = Vec3::Zero();
+  const auto apart = direction_apart(a, b);
+  if (apart) search_from(*apart, search);
+  if (!search.done) search_from(direction_through(a, b), search);
+  const Meeting& x = search.best;
+  return {.phi = x.d - a.radius - b.radius,
+          .n_W = x.n,
+          .p_WA = origin + (x.a.x - a.radius * x.n),
+          .p_WB = origin + (x.b.x + b.radius * x.n),
+          .center_W = origin + x.a.x,
+          .d = x.d,
+          .a = patch_of(a, x.a, x.n),
+          .b = patch_of(b, x.b, x.n)};
+}
+
+}  // namespace saltus

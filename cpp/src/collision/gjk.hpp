@@ -1,0 +1,22 @@
+// First guesses of the direction that separates two cores most.
+#pragma once
+
+#include <optional>
+
+#include "collision/solid.hpp"
+
+namespace saltus {
+
+/// The point of a's core least along n less the point of b's farthest along it.
+inline Vec3 difference(const Solid& a, const Solid& b, const Vec3& n) {
+  return support(a, -n) - support(b, n);
+}
+
+/// From b to a, where they are apart by more than 1e-7 of their size; else nothing, as n would be
+/// mostly rounding.
+std::optional<Vec3> direction_apart(const Solid& a, const Solid& b);
+
+/// Where they overlap, or just do not.
+Vec3 direction_through(const Solid& a, const Solid& b);
+
+}  // namespace saltus
