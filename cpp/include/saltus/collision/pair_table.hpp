@@ -39,7 +39,9 @@ class SALTUS_EXPORT PairTable {
   };
   Key key(int pair) const;  ///< needs 0 <= pair < size()
 
-  bool is_used(int shape) const { return used_[shape] != 0; }  ///< in any pair
+  bool is_used(int shape) const {  ///< in any pair
+    return !used_.empty() && used_[shape] != 0;
+  }
 
  private:
   using Count = long long;
