@@ -21,7 +21,7 @@ struct Chord {
   bool b_is_sphere() const { return std::holds_alternative<Sphere>(b().shape); }
   /// A ball's directions do not matter: it is not asked how it turns.
   bool a_is_ball() const {
-    return std::holds_alternative<Sphere>(a().shape) && pair.out_a.isZero(0);
+    return std::holds_alternative<Sphere>(a().shape) && pair.inward.empty();
   }
   double start(int joint) const {  ///< [rad | m] displacement of a joint at s = 0
     const Drive& drive = tree.drive[joint];

@@ -1,6 +1,7 @@
 #include "collision/corners.hpp"
 
 #include <cassert>
+#include <cmath>
 #include <numbers>
 
 namespace saltus {
@@ -8,36 +9,41 @@ namespace {
 
 char sign_name(double x) { return x < 0 ? '-' : '+'; }
 
-PartOfShape point(std::string name, double radius, const Vec3& p, const Vec3& out) {
-  return {std::move(name), Sphere{radius}, {Mat3::Identity(), p}, out};
+PartOfShape point(std::string name, double radius, const Vec3& p) {
+  return {std::move(name), Sphere{radius}, {Mat3::Identity(), p}, Vec3::Zero(), {}};
 }
 
 PartOfShape corner_of(const Box& box, int k) {
   const Vec3 sign(k & 1 ? -1 : 1, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
   const std::string name = {sign_name(sign.x()), sign_name(sign.y()), sign_name(sign.z())};
-  return point(name, 0, sign.cwiseProduct(box.half), sign.normalized());
+  PartOfShape out = point(name, 0, sign.cwiseProduct(box.half));
+  for (int i = 0; i < 3; ++i) out.inward.push_back(-sign[i] * Vec3::Unit(i));
+  return out;
 }
 
 PartOfShape corner_of(const Capsule& capsule, int k) {
   const double z = k == 0 ? 1 : -1;
-  return point({sign_name(z)}, capsule.radius, z * capsule.half_length * Vec3::UnitZ(),
-               Vec3::Zero());
+  return point({sign_name(z)}, capsule.radius, z * capsule.half_length * Vec3::UnitZ());
 }
 
 PartOfShape corner_of(const Convex& convex, int k) {
-  const Vec3& v = convex.hull->vertices[k];
-  return point(std::string("v").append(std::to_string(k)), 0, v, (v - convex.hull->center).normalized());
+  const Hull& hull = *convex.hull;
+  PartOfShape out = point(std::string("v").append(std::to_string(k)), 0, hull.vertices[k]);
+  for (int i = hull.first_neighbour[k]; i < hull.first_neighbour[k + 1]; ++i) {
+    out.inward.push_back((hull.vertices[hull.neighbour[i]] - hull.vertices[k]).normalized());
+  }
+  return out;
 }
 
 // A rim has no corners; four points of it bear a cylinder that stands, where its lowest point
 // can be anywhere.
 PartOfShape corner_of(const Cylinder& cylinder, int k) {
   const double z = k < 4 ? 1 : -1;
-  const Vec3 w = Eigen::AngleAxisd((k % 4) * std::numbers::pi / 2, Vec3::UnitZ()) * Vec3::UnitX();
+  const double angle = (k % 4) * std::numbers::pi / 2;
   std::string name(1, sign_name(z));
   name.append(std::to_string(90 * (k % 4)));
-  const Vec3 p = cylinder.radius * w + z * cylinder.half_length * Vec3::UnitZ();
-  return point(name, 0, p, (w + z * Vec3::UnitZ()).normalized());
+  return point(name, 0, {cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+                         z * cylinder.half_length});
 }
 
 PartOfShape edge_of(const Box& box, int k) {
@@ -51,7 +57,7 @@ PartOfShape edge_of(const Box& box, int k) {
   name[along] = "xyz"[along];
   name[i] = sign_name(sign_i);
   name[j] = sign_name(sign_j);
-  return {name, Capsule{0, box.half[along]}, X_GP, X_GP.R.transpose() * out};
+  return {name, Capsule{0, box.half[along]}, X_GP, X_GP.R.transpose() * out, {}};
 }
 
 }  // namespace
@@ -81,7 +87,7 @@ int edge_count(const Shape& shape) {
 PartOfShape edge(const Shape& shape, int k) {
   assert(k < edge_count(shape));
   if (const auto* box = std::get_if<Box>(&shape)) return edge_of(*box, k);
-  return {"axis", shape, {}, Vec3::Zero()};
+  return {"axis", shape, {}, Vec3::Zero(), {}};
 }
 
 PartOfShape rim(const Cylinder& shape, int k) {
@@ -89,7 +95,8 @@ PartOfShape rim(const Cylinder& shape, int k) {
   return {std::string("rim") + sign_name(z),
           Cylinder{shape.radius, 0},
           {Mat3::Identity(), z * shape.half_length * Vec3::UnitZ()},
-          z * Vec3::UnitZ()};
+          Vec3::Zero(),
+          {}};
 }
 
 }  // namespace saltus

@@ -12,7 +12,8 @@ struct PartOfShape {
   std::string name;           ///< "" for all of it
   Shape shape;
   Pose X_GP;                  ///< its frame
-  Vec3 out = Vec3::Zero();    ///< out of the shape, in the part's frame
+  Vec3 out = Vec3::Zero();    ///< of an edge of a solid: out of the shape, in the part's frame
+  std::vector<Vec3> inward;   ///< of a corner: along the edges that meet in it
 };
 
 /// Box 8, capsule 2, convex as many as it has vertices, cylinder 8; the others have none.

@@ -22,6 +22,10 @@ constexpr double parallel = 1e-6;
 /// box. Faces that lie on one another may be this far from parallel [rad].
 constexpr double least_cosine = 0.70710678118654752 - 1e-3;
 
+/// [pair.touch] Edges that are farther on the wrong side of each other, by a hundredth of the smaller
+/// shape, are on the far sides of both.
+constexpr double deepest = 1e8;
+
 /// Part of an edge next to its ends that is left to the corners.
 constexpr double end = 1e-9;
 
@@ -57,7 +61,7 @@ Gap crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
 }
 
 bool is_crossing(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
-  if (!std::isfinite(gap.phi)) return false;
+  if (!(gap.phi > -deepest * pair.touch) || !std::isfinite(gap.phi)) return false;
   const auto &a = std::get<Capsule>(pair.on_a.shape), &b = std::get<Capsule>(pair.on_b.shape);
   const double xi = axis(X_WA).dot(gap.center_W - X_WA.p);
   const double eta = axis(X_WB).dot(gap.p_WB - b.radius * gap.n_W - X_WB.p);

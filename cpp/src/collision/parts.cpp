@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "collision/corners.hpp"
 #include "collision/crossing.hpp"
@@ -40,7 +41,7 @@ bool goes_second(const Shape& a, const Shape& b) {
   return is<HalfSpace>(a) || (is<Sphere>(b) && !is<Sphere>(a));
 }
 
-PartOfShape all_of(const Shape& shape) { return {"", shape, {}, Vec3::Zero()}; }
+PartOfShape all_of(const Shape& shape) { return {"", shape, {}, Vec3::Zero(), {}}; }
 
 /// Both parts and the kind of their gap.
 struct Parts {
@@ -68,25 +69,50 @@ Placed put(const PlacedShape& shape, const PartOfShape& part) {
   return {part.shape, shape.joint, shape.X_JG * part.X_GP};
 }
 
-/// A corner in the touch of a box: its nearest face, but where several are near to `flush` of the
-/// box's size that one which faces the corner's own body least. Cubes that are stacked edge on edge
-/// touch with such corners, and rounding may not choose the normal.
-Gap corner_on_box(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
-  constexpr double flush = 1e-9;
-  const Vec3 half = std::get<Box>(pair.on_b.shape).half, c = in_frame(X_WB, X_WA.p);
-  const Vec3 e = c.cwiseAbs() - half, out_B = X_WB.R.transpose() * (X_WA.R * pair.out_a);
-  const double tolerance = flush * half.minCoeff(), most = e.maxCoeff();
-  if (most > tolerance) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
-  int best = -1;
-  double cosine = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double along = -side(c[k]) * out_B[k];
-    if (e[k] < most - tolerance || (best >= 0 && along <= cosine)) continue;
-    best = k;
-    cosine = along;
+/// A face of a solid as a corner sees it.
+struct SeenFace {
+  double e;  ///< [m] height of the corner over it
+  Vec3 n;    ///< in the solid's frame
+};
+
+SeenFace face(const Box& box, const Vec3& c, int k) {
+  const Vec3 n = (k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2);
+  return {n.dot(c) - box.half[k / 2], n};
+}
+
+SeenFace face(const Convex& convex, const Vec3& c, int k) {
+  const Hull::Face& f = convex.hull->faces[k];
+  return {f.normal.dot(c) - f.offset, f.normal};
+}
+
+int face_count(const Box&) { return 6; }
+int face_count(const Convex& convex) { return static_cast<int>(convex.hull->faces.size()); }
+
+/// A corner in the touch of a solid with faces, or inside: the nearest of those faces along whose
+/// normal its own body is beyond the corner. Another face cannot have stopped it: the corners of
+/// cubes that are stacked edge on edge lie on the upright faces too, and would slide down there.
+template <class Solid>
+Gap corner_on_faces(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB) {
+  constexpr double flush = 1e-9;  // of the solid's size: as good as on the face, not beside it
+  constexpr double tilt = 1e-3;   // [rad] faces that are flat on each other may be apart
+  const Vec3 c = in_frame(X_WB, X_WA.p);
+  const Mat3 R_BA = X_WB.R.transpose() * X_WA.R;
+  const double beside = flush * feature_size(solid);
+  SeenFace best{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
+  for (int k = 0; k < face_count(solid); ++k) {
+    const SeenFace seen = face(solid, c, k);
+    if (seen.e > beside) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+    const Vec3 n_A = R_BA.transpose() * seen.n;
+    const auto goes_below = [&](const Vec3& edge) { return n_A.dot(edge) < -tilt; };
+    if (seen.e <= best.e || std::any_of(pair.inward.begin(), pair.inward.end(), goes_below)) {
+      continue;
+    }
+    best = seen;
   }
-  return sphere_gap(std::get<Sphere>(pair.on_a.shape), X_WA, X_WB,
-                    {e[best], side(c[best]) * Vec3::Unit(best), face_across(best)});
+  if (!std::isfinite(best.e)) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+  const Vec3 t = best.n.unitOrthogonal();
+  const Patch flat{.dim = 2, .t0 = t, .t1 = best.n.cross(t)};
+  return sphere_gap(std::get<Sphere>(pair.on_a.shape), X_WA, X_WB, {best.e, best.n, flat});
 }
 
 }  // namespace
@@ -107,6 +133,7 @@ Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, in
   pair.on_b = put(shapes[b], parts.b);
   pair.out_a = parts.a.out;
   pair.out_b = parts.b.out;
+  pair.inward = parts.a.inward;
   pair.chain = chain_between(tree, pair.on_b.joint, pair.on_a.joint);
   // epsilon_phi: 1e-10 of the smaller shape is far above the rounding of positions (1e-16 of the
   // scene) and far below what anybody can see
@@ -146,9 +173,12 @@ std::string pair_name(const std::vector<PlacedShape>& shapes, const Pair& pair) 
 
 Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
   if (pair.kind == PairKind::crossing) return crossing_gap(pair, X_WA, X_WB);
-  if (pair.kind == PairKind::corner && std::holds_alternative<Box>(pair.on_b.shape) &&
-      !pair.out_a.isZero(0)) {
-    return corner_on_box(pair, X_WA, X_WB);
+  if (!pair.inward.empty()) {
+    const Shape& solid = pair.on_b.shape;
+    if (const auto* box = std::get_if<Box>(&solid)) return corner_on_faces(pair, *box, X_WA, X_WB);
+    if (const auto* convex = std::get_if<Convex>(&solid)) {
+      return corner_on_faces(pair, *convex, X_WA, X_WB);
+    }
   }
   return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
 }

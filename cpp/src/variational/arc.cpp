@@ -39,7 +39,10 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
                          ArcScratch& s) {
   evaluate(model, a, v, s);
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
-  for (const ArcConstraint& c : a.constraints) s.r += c.lambda * c.n;
+  for (const ArcConstraint& c : a.constraints) {
+    s.r += c.lambda * c.n;
+    s.scale += std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
+  }
   if (!s.r.allFinite()) return std::numeric_limits<double>::infinity();
   if (s.r.size() == 0) return 0;
   // where a coordinate feels no force at all, 0 / tiny is 0

@@ -15,7 +15,9 @@ using SmallVec = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_
 /// legs of a table share its weight.
 inline SmallVec solve_small(const SmallMat& A, const SmallVec& b) {
   if (A.rows() == 1) return b / A(0, 0);
-  return Eigen::CompleteOrthogonalDecomposition<SmallMat>(A).solve(b);
+  Eigen::CompleteOrthogonalDecomposition<SmallMat> Q(A.rows(), A.cols());
+  Q.setThreshold(1e-11);  // what redundant contacts leave is 1e-16 of A times its few rows
+  return Q.compute(A).solve(b);
 }
 
 }  // namespace saltus

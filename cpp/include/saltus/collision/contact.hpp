@@ -48,8 +48,10 @@ struct Pair {
   int part = 0;         ///< which of the gaps of these two shapes
   PairKind kind = PairKind::whole;
   Placed on_a, on_b;    ///< the parts that face each other; b alone may be a half-space
-  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();  ///< out of the shape where its part is, in the
-                                                    ///< part's frame; 0 where it has no such side
+  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();  ///< edges: out of the shape, in the part's
+                                                    ///< frame; 0 for an axis
+  std::vector<Vec3> inward;  ///< corner: along the edges that meet in it, in its frame; none where
+                             ///< it is round
   bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
