@@ -81,7 +81,7 @@ void keep(int mask, Simplex& s) {
 }  // namespace
 
 std::optional<Vec3> direction_apart(const Solid& a, const Solid& b) {
-  const double least = 1e-7 * (a.length + b.length);
+  const double least = 1e-15 * (a.length + b.length);
   // a curved core is approached but never reached; Newton goes on from 3e-4 rad
   const double tolerance = a.curved() || b.curved() ? 1e-7 : 1e-14;
   Simplex simplex;

@@ -12,8 +12,8 @@ inline Vec3 difference(const Solid& a, const Solid& b, const Vec3& n) {
   return support(a, -n) - support(b, n);
 }
 
-/// From b to a, where they are apart by more than 1e-7 of their size; else nothing, as n would be
-/// mostly rounding.
+/// From b to a where they are apart, else nothing. Where they nearly touch this may be rounding:
+/// check what follows from it.
 std::optional<Vec3> direction_apart(const Solid& a, const Solid& b);
 
 /// Where they overlap, or just do not.

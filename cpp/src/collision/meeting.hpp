@@ -11,7 +11,7 @@ struct Meeting {
   Feature a, b;
   double s = 0;     ///< [m] separation of the whole cores along n
   double d = 0;     ///< [m] n.(x - y), not below s but by rounding
-  double past = 0;  ///< [m] how far a witness is past the end of its feature
+  double past = 0;  ///< [m] by how much the witnesses are none: past an end, not along n
 };
 
 /// Moves the witnesses of `a` and `b` to where x - y is along n and n across both features;

@@ -62,7 +62,7 @@ Feature edge_between(const Vec3& from, const Vec3& to);
 /// What is near the farthest place along the unit m: features whose normals come within an angle
 /// of about `width`, and flat faces by their normals alone.
 struct Nearby {
-  static constexpr int capacity = 16;
+  static constexpr int capacity = 32;
   Feature features[capacity];
   int count = 0;
   Vec3 normals[capacity];
