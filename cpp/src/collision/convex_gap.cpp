@@ -90,8 +90,14 @@ void search_from(const Vec3& first, Search& search) {
 Gap convex_gap(const Solid& a, const Solid& b, const Vec3& origin) {
   Search search{a, b, 2e-15 * (a.length + b.length + (a.p - b.p).norm()), {}};
   search.best.n = Vec3::Zero();
-  const auto apart = direction_apart(a, b);
-  if (apart) search_from(*apart, search);
+  // polytopes are reached; curved ones only approached, and Newton goes on from there if it can
+  const bool curved = a.curved() || b.curved();
+  for (const double tolerance : {curved ? 1e-7 : 1e-14, 1e-14}) {
+    const auto apart = direction_apart(a, b, tolerance);
+    if (!apart || search.found) break;
+    search_from(*apart, search);
+    if (!curved) break;
+  }
   if (!search.found) {
     const Vec3 n = direction_through(a, b);
     search.least = n.dot(difference(a, b, n));

@@ -47,9 +47,7 @@ Feature flat_feature(const Flat& f, const Vec3& x, const Vec3& n) {
   } else if (f.corners == 2) {
     out = cylinder ? side_at(*f.solid, x) : edge_between(f.at(0), f.at(1));
   } else if (f.solid->kind == Solid::Kind::ellipsoid) {
-    out.kind = Kind::surface;
-    out.x = x;
-    slide(*f.solid, 0, 0, out);
+    out = surface_at(*f.solid, f.along);
   } else if (cylinder) {
     out = rim_at(*f.solid, x);
   }

@@ -73,7 +73,17 @@ struct State {
   Vec3 n;
 };
 
-/// One step of Newton's method; returns the residual before it, angles counted as `length`.
+/// [m] what the slant of n against a feature's tangents counts as: the way to where it has none,
+/// where the feature bends more than over `length`. A sharp end tells n only to rounding times
+/// bend.
+double slant(const Patch& f, const Vec3& n, double length) {
+  double out = 0;
+  if (f.dim > 0) out += std::abs(f.t0.dot(n)) / (1 / length + std::abs(f.k00));
+  if (f.dim > 1) out += std::abs(f.t1.dot(n)) / (1 / length + std::abs(f.k11));
+  return out;
+}
+
+/// One step of Newton's method; returns the residual [m] before it.
 double newton_step(const Solid& A, const Solid& B, double length, State& x) {
   Mat32 E;
   E.col(0) = x.n.unitOrthogonal();
@@ -81,11 +91,12 @@ double newton_step(const Solid& A, const Solid& B, double length, State& x) {
   const Vec3 w = x.a.x - x.b.x;
   Mat6 M = Mat6::Zero();
   Vec6 r = Vec6::Zero();
-  add_feature(patch_of(A, x.a, x.n), 1, x.n, E, 0, M, r);
-  add_feature(patch_of(B, x.b, x.n), -1, x.n, E, 2, M, r);
+  const Patch a = patch_of(A, x.a, x.n), b = patch_of(B, x.b, x.n);
+  add_feature(a, 1, x.n, E, 0, M, r);
+  add_feature(b, -1, x.n, E, 2, M, r);
   M(4, 4) = M(5, 5) = -x.n.dot(w);
   r.tail<2>() = E.transpose() * w;
-  const double residual = r.tail<2>().norm() + length * r.head<4>().norm();
+  const double residual = r.tail<2>().norm() + slant(a, x.n, length) + slant(b, x.n, length);
   const Vec6 step = -M.partialPivLu().solve(r);
   if (!step.allFinite()) return residual;
   const double turn = step.tail<2>().norm(), shorter = turn > 0.3 ? 0.3 / turn : 1;

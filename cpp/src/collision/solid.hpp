@@ -36,7 +36,8 @@ struct Feature {
   Kind kind = Kind::vertex;
   Vec3 x = Vec3::Zero();                      ///< the witness on it
   Vec3 t0 = Vec3::Zero(), t1 = Vec3::Zero();  ///< unit tangents at x, across each other
-  Vec3 center = Vec3::Zero();                 ///< edge, side: middle; rim: of the circle
+  Vec3 center = Vec3::Zero();                 ///< edge, side: middle; rim: of the circle;
+                                              ///< surface: x on the unit sphere
   double half = 0;                            ///< edge: along t0, side: along t1
 
   int dim() const { return kind == Kind::vertex ? 0 : kind <= Kind::edge ? 1 : other_dim(); }
@@ -54,6 +55,8 @@ Patch patch_of(const Solid& s, const Feature& f, const Vec3& n);
 /// [m] how far the witness is past the feature's end; not above 0 within.
 double beyond(const Feature& f);
 
+/// On an ellipsoid, where it is farthest along m.
+Feature surface_at(const Solid& s, const Vec3& m);
 /// On a cylinder: its nearer rim, its side, at the point x of either.
 Feature rim_at(const Solid& s, const Vec3& x);
 Feature side_at(const Solid& s, const Vec3& x);
@@ -85,6 +88,7 @@ struct Flat {
   Vec3 corner[4];                    ///< where there is no face
   const Hull::Face* face = nullptr;  ///< of a hull
   const Solid* solid = nullptr;
+  Vec3 along = Vec3::Zero();                                       ///< the direction
   Vec3 center = Vec3::Zero(), u = Vec3::Zero(), v = Vec3::Zero();  ///< disc and two axes
   double radius = 0;
 

@@ -179,16 +179,13 @@ void find_nearby(const Solid& s, const Vec3& m, double width, Nearby& out) {
   if (s.kind == Solid::Kind::hull) return nearby_hull(s, d, width, out);
   if (s.kind == Solid::Kind::cylinder) return nearby_cylinder(s, d, width, out);
   if (s.kind != Solid::Kind::ellipsoid) return nearby_box(s, d, width, out);
-  Feature f;
-  f.kind = Kind::surface;
-  f.x = support(s, m);
-  slide(s, 0, 0, f);
-  out.add(f);
+  out.add(surface_at(s, m));
 }
 
 Flat flat_along(const Solid& s, const Vec3& m, double level) {
   Flat out;
   out.solid = &s;
+  out.along = m;
   const Vec3 d = s.R.transpose() * m;
   if (s.kind == Solid::Kind::hull) {
     flat_hull(s, d, level, out);
