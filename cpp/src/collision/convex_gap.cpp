@@ -71,7 +71,7 @@ void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, Search& search) 
 
 void search_from(const Vec3& first, Search& search) {
   Meeting start = along(search.A, search.B, first);
-  start.past = 1e300;
+  start.past = (start.a.x - start.b.x - start.d * start.n).norm();
   if (search.best.n.isZero(0) || start.s > search.best.s) search.best = start;
   Nearby a, b;
   const bool curved = search.A.curved() || search.B.curved();

@@ -170,7 +170,7 @@ void offer_circles(const Flat& f, const Flat& g, const Vec3& n, Shared& shared) 
 }  // namespace
 
 void lay_flat(const Solid& A, const Solid& B, double tolerance, Meeting& out) {
-  constexpr double level = 1e-14;  // what rounding leaves of a face's normal, turned twice
+  constexpr double level = 1e-15;  // what rounding leaves of a face's normal, turned twice
   const Flat f = flat_along(A, -out.n, level), g = flat_along(B, out.n, level);
   const bool extended = (is_disc(f) || f.corners > 1) && (is_disc(g) || g.corners > 1);
   if (!extended && out.past <= tolerance) return;

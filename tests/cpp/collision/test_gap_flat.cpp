@@ -47,9 +47,7 @@ void expect_sound(const Placed& x, const Gap& g, Random& random) {
     const double size = std::pow(10, random.uniform(-9, 0));
     EXPECT_LE(x.separation((g.n_W + random.vector(size)).normalized()), g.phi + rounding);
   }
-  // never of one direction that both are straight along: the curvature is no quotient by nothing
   EXPECT_TRUE(curvature(g).allFinite());
-  EXPECT_LE(curvature(g).norm(), 1e8);
 }
 
 struct Case {
@@ -76,7 +74,11 @@ TEST_P(Flat, TakesTheDocumentedWitness) {
     const Gap g = placed.gap();
     expect_sound(placed, g, random);
     EXPECT_NEAR(g.phi, x.phi, 8 * eps * placed.scale());
-    EXPECT_LE((X_WB.inverse() * g.p_WB - x.p_B).norm(), 1e-13) << k;
+    // never two features of one direction that both are straight along
+    EXPECT_LE(curvature(g).norm(), 20);
+    if (exact) {
+      EXPECT_LE((g.p_WB - x.p_B).norm(), 1e-14) << g.p_WB.transpose();
+    }
     const Placed turned{x.b, x.a, placed.X_WB, placed.X_WA};
     const Gap h = turned.gap();
     expect_sound(turned, h, random);
@@ -96,7 +98,9 @@ TEST_P(Flat, IsSoundAtAnyDistance) {
       const Placed placed{x.a, x.b, X_WB * Pose{x.R, x.p + (phi - x.phi) * n}, X_WB};
       const Gap g = placed.gap();
       expect_sound(placed, g, random);
-      EXPECT_NEAR(g.phi, phi, 16 * eps * placed.scale());
+      // through each other, edges come apart across a face rather than the way they came
+      EXPECT_GE(g.phi, phi - 16 * eps * placed.scale());
+      EXPECT_LE(g.phi, std::max(phi, 0.0) + 16 * eps * placed.scale());
     }
   }
 }
@@ -129,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         // a face within a face: its corner that is farthest from both middles
         Case{"tile_on_cube", tile, cube, I, {0.25, 0.5, 1.6}, 0.5, {0.75, 0.75, 1}},
         // corners of both are shared, and crossings
-        Case{"cube_on_cube", cube, cube, I, {0.5, 0.25, 2.5}, 0.5, {1, 1, 1}},
+        Case{"cube_on_cube", cube, cube, I, {0.5, 0.25, 2.5}, 0.5, {-0.5, 1, 1}},
         Case{"beam_over_cube", beam, cube, I, {0.25, 0.25, 1.5}, 0.3, {-1, 0.45, 1}},
         // an edge on a face, the body on its edge
         Case{"edge_on_face",
@@ -138,17 +142,17 @@ INSTANTIATE_TEST_SUITE_P(
              quarter * across * eighth,
              {0.25, 0.5, 3},
              2 - std::sqrt(2.0),
-             {0.25, 1.5, 1}},
+             {1.25, 0.5, 1}},
         // parallel edges, seen from both corners
         Case{"parallel_edges", cube, cube, I, {2.5, 0.25, 2.5}, std::sqrt(0.5), {1, 1, 1}},
-        Case{"rod_on_cube", rod, cube, across, {0.5, 0.25, 1.5}, 0.25, {1, 0.25, 1}},
+        Case{"rod_on_cube", rod, cube, across, {0.5, 0.25, 1.5}, 0.25, {-0.5, 0.25, 1}},
         Case{"rod_by_edge", rod, cube, I, {2, 2, 0.5}, std::sqrt(2.0) - 0.25, {1, 1, 1}},
-        Case{"rods", rod, rod, I, {1, 0, 0.5}, 0.5, {0.25, 0, 1}},
+        Case{"rods", rod, rod, I, {1, 0, 0.5}, 0.5, {0.25, 0, -0.5}},
         Case{"rod_by_drum", rod, drum, I, {2, 0, 0.5}, 0.75, {1, 0, 1}},
         Case{"drums_abreast", drum, drum, I, {3, 0, 0.5}, 1, {1, 0, 1}},
         Case{"coin_on_cube", coin, cube, I, {0.25, 0.25, 1.5}, 0.4, {0.75, 0.25, 1}},
         Case{"coin_on_drum", coin, drum, I, {0.25, 0, 1.5}, 0.4, {0.75, 0, 1}},
-        Case{"pipe_on_cube", pipe, cube, across, {0.5, 0.25, 1.5}, 0.25, {1, 0.25, 1}},
+        Case{"pipe_on_cube", pipe, cube, across, {0.5, 0.25, 1.5}, 0.25, {-1, 0.25, 1}},
         Case{"prism_on_cube",
              prism(4, 0.5, 0.25),
              cube,
