@@ -46,16 +46,16 @@ Meeting along(const Solid& A, const Solid& B, const Vec3& n) {
   return out;
 }
 
-void offer_face(const Vec3& n, Search& search) {
+void offer_face(const Vec3& n, bool of_a, Search& search) {
   Meeting x = along(search.A, search.B, n);
   x.past = 1e300;  // the corner that is farthest need not be over the face: lay_flat finds one
-  lay_flat(search.A, search.B, search.rounding, x);
+  lay_flat(search.A, search.B, of_a, search.rounding, x);
   search.offer(x);
 }
 
 void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, Search& search) {
-  for (int k = 0; k < b.faces && !search.done; ++k) offer_face(b.normals[k], search);
-  for (int k = 0; k < a.faces && !search.done; ++k) offer_face(-a.normals[k], search);
+  for (int k = 0; k < b.faces && !search.done; ++k) offer_face(b.normals[k], false, search);
+  for (int k = 0; k < a.faces && !search.done; ++k) offer_face(-a.normals[k], true, search);
   for (int i = 0; i < a.count; ++i) {
     for (int j = 0; j < b.count && !search.done; ++j) {
       Meeting x{.n = n, .a = a.features[i], .b = b.features[j]};

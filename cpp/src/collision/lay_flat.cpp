@@ -169,9 +169,12 @@ void offer_circles(const Flat& f, const Flat& g, const Vec3& n, Shared& shared) 
 
 }  // namespace
 
-void lay_flat(const Solid& A, const Solid& B, double tolerance, Meeting& out) {
-  constexpr double level = 1e-15;  // what rounding leaves of a face's normal, turned twice
-  const Flat f = flat_along(A, -out.n, level), g = flat_along(B, out.n, level);
+void lay_flat(const Solid& A, const Solid& B, bool of_a, double tolerance, Meeting& out) {
+  // the one whose normal n is knows its face by it; what tilts the other by more than rounding is
+  // no flat
+  constexpr double own = 1e-12, other = 3e-15;
+  const Flat f = flat_along(A, -out.n, of_a ? own : other);
+  const Flat g = flat_along(B, out.n, of_a ? other : own);
   const bool extended = (is_disc(f) || f.corners > 1) && (is_disc(g) || g.corners > 1);
   if (!extended && out.past <= tolerance) return;
   Meeting flat = out;

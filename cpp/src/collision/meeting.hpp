@@ -18,8 +18,8 @@ struct Meeting {
 /// neither is a face. False where that is not found near the given n.
 bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n);
 
-/// The witness for n, the normal of a face of either or both: where a flat lies on a flat, the
-/// corner of what they share that is farthest from both solids' origins (the first such).
-void lay_flat(const Solid& A, const Solid& B, double tolerance, Meeting& out);
+/// The witness for n, the normal of a face of a or of b: where a flat lies on a flat, the corner of
+/// what they share that is farthest from both solids' origins (the first such).
+void lay_flat(const Solid& A, const Solid& B, bool of_a, double tolerance, Meeting& out);
 
 }  // namespace saltus

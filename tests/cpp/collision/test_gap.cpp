@@ -82,7 +82,7 @@ TEST_P(AllPairs, MovesWithTheBodies) {
     const double bend = 1 + curvature(g).norm();
     EXPECT_LE((X.R * g.n_W - h.n_W).norm(), rounding * bend);
     EXPECT_LE((X * g.p_WB - h.p_WB).norm(), 2 * rounding * bend);
-    EXPECT_LE((X.R * F_W(g) * X.R.transpose() - F_W(h)).norm(), 4 * rounding * bend * bend)<<k<<" phi "<<g.phi<<" "<<h.phi<<" dims "<<g.a.dim<<g.b.dim<<" "<<h.a.dim<<h.b.dim<<"\n"<<(X.R * g.n_W - h.n_W).norm()<<" "<<(X*g.p_WB-h.p_WB).norm()<<" bend "<<bend<<" "<<curvature(h).norm()<<"\n";
+    EXPECT_LE((X.R * F_W(g) * X.R.transpose() - F_W(h)).norm(), 4 * rounding * bend * bend);
   }
 }
 
