@@ -226,10 +226,15 @@ TEST(ThinBodies, AreAsAccurate) {
           return testing_scene::random_convex(r, random);
       }
     };
-    const Placed x{shape(s),
-                   shape(t),
-                   {random.rotation(), random.vector(1)},
-                   {random.rotation(), Vec3::Zero()}};
+    Placed x{shape(s),
+             shape(t),
+             {random.rotation(), random.vector(1)},
+             {random.rotation(), Vec3::Zero()}};
+    const Gap far = x.gap();  // every other one just touches
+    if (k % 2 == 0) {
+      const double phi = random.uniform(-1, 1) * std::pow(10, -4.0 - random.index(12));
+      x = x.moved_by((phi - far.phi) * far.n_W);
+    }
     SCOPED_TRACE(shape_name(x.a) + " " + shape_name(x.b) + " " + std::to_string(k));
     const Gap g = x.gap();
     const double rounding = 16 * eps * x.scale();
@@ -239,6 +244,22 @@ TEST(ThinBodies, AreAsAccurate) {
     for (int i = 0; i < 100; ++i) {
       const double size = std::pow(10, random.uniform(-9, 0));
       EXPECT_LE(x.separation((g.n_W + random.vector(size)).normalized()), g.phi + rounding);
+    }
+  }
+}
+
+// Symmetric through and through: every direction, or many, are equally good.
+TEST(Gaps, AreSoundWhereBodiesCoincide) {
+  for (const auto& names : gap_table()) {
+    SCOPED_TRACE(names.first + " " + names.second);
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+      Random random(seed), same(seed), other(100);
+      Placed x{testing_scene::random_shape(names.first, random),
+               testing_scene::random_shape(names.second, same), {}, {}};
+      if (seed % 4 == 1) x.X_WA.p = 1e-16 * random.direction();
+      if (seed % 4 == 2) x.X_WA.p = 1e-9 * random.direction();
+      if (seed % 4 == 3) x.X_WA.p = 0.1 * Vec3::Unit(random.index(3));
+      expect_sound(x, x.gap(), other);
     }
   }
 }
