@@ -39,9 +39,7 @@ struct Search {
 };
 
 Meeting along(const Solid& A, const Solid& B, const Vec3& n) {
-  Meeting out{.n = n, .a = {}, .b = {}};
-  out.a.x = support(A, -n);
-  out.b.x = support(B, n);
+  Meeting out{.n = n, .a = vertex_at(support(A, -n)), .b = vertex_at(support(B, n))};
   out.s = out.d = n.dot(out.a.x - out.b.x);
   return out;
 }

@@ -39,7 +39,7 @@ double outside(const Flat& f, const Vec3& x, const Vec3& n) {
 
 Feature flat_feature(const Flat& f, const Vec3& x, const Vec3& n) {
   const bool cylinder = f.solid->kind == Solid::Kind::cylinder;
-  Feature out;
+  Feature out = vertex_at(x);
   if (is_disc(f) || f.corners > 2) {
     out.kind = Kind::face;
     out.t0 = n.unitOrthogonal();
@@ -62,9 +62,7 @@ Feature corner_feature(const Flat& f, const Vec3& x, const Vec3& n) {
     point.corners = 1;
     return flat_feature(point, x, n);
   }
-  Feature out;
-  out.x = x;
-  return out;
+  return vertex_at(x);
 }
 
 Feature outline_feature(const Flat& f, const Vec3& from, const Vec3& to, const Vec3& x) {

@@ -82,7 +82,7 @@ void put(const Solid& s, const Vec3& e, Feature& f) {
 }  // namespace
 
 Feature surface_at(const Solid& s, const Vec3& m) {
-  Feature f;
+  Feature f = vertex_at(s.p);
   f.kind = Kind::surface;
   put(s, s.size.cwiseProduct(s.R.transpose() * m), f);
   return f;

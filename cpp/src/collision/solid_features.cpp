@@ -13,12 +13,6 @@ namespace {
 
 using Kind = Feature::Kind;
 
-Feature vertex_at(const Vec3& x) {
-  Feature f;
-  f.x = x;
-  return f;
-}
-
 /// Half lengths along three axes, of which a segment has one.
 void nearby_box(const Solid& s, const Vec3& d, double width, Nearby& out) {
   const int first = s.kind == Solid::Kind::box ? 0 : 2;
@@ -139,24 +133,20 @@ void flat_cylinder(const Solid& s, const Vec3& d, double level, Flat& out) {
 
 }  // namespace
 
+Feature vertex_at(const Vec3& x) {
+  const Vec3 none = Vec3::Zero();
+  return {Kind::vertex, x, none, none, none, 0};
+}
+
 Feature edge_between(const Vec3& from, const Vec3& to) {
-  Feature f;
-  f.kind = Kind::edge;
-  f.x = f.center = 0.5 * (from + to);
-  f.half = 0.5 * (to - from).norm();
-  f.t0 = (to - from) / (2 * f.half);
-  return f;
+  const Vec3 middle = 0.5 * (from + to);
+  const double length = (to - from).norm();
+  return {Kind::edge, middle, (to - from) / length, Vec3::Zero(), middle, 0.5 * length};
 }
 
 Feature side_at(const Solid& s, const Vec3& x) {
-  Feature f;
-  f.kind = Kind::side;
-  f.x = x;
-  f.center = s.p;
-  f.half = s.size.z();
-  f.t1 = s.R.col(2);
-  f.t0 = f.t1.cross(x - s.p).normalized();
-  return f;
+  const Vec3 z = s.R.col(2);
+  return {Kind::side, x, z.cross(x - s.p).normalized(), z, s.p, s.size.z()};
 }
 
 Feature rim_at(const Solid& s, const Vec3& x) {
