@@ -25,6 +25,8 @@ set(SALTUS_TEST_collision
   collision/test_contact.cpp
   collision/test_gap.cpp
   collision/test_gap_degenerate.cpp
+  collision/test_gap_derivatives.cpp
+  collision/test_gap_flat.cpp
   collision/test_hull.cpp
   collision/test_no_allocation.cpp
   collision/test_pair_table.cpp

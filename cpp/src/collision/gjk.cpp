@@ -80,15 +80,13 @@ void keep(int mask, Simplex& s) {
 
 }  // namespace
 
-std::optional<Vec3> direction_apart(const Solid& a, const Solid& b) {
-  const double least = 1e-7 * (a.length + b.length);
-  // a curved core is approached but never reached; Newton goes on from 3e-4 rad
-  const double tolerance = a.curved() || b.curved() ? 1e-7 : 1e-14;
+std::optional<Vec3> direction_apart(const Solid& a, const Solid& b, double tolerance) {
+  const double least = 1e-15 * (a.length + b.length);
   Simplex simplex;
   Vec3 v = a.p - b.p;
   if (v.norm() <= least) v = Vec3::UnitX();
   double square = -1;
-  for (int k = 0; k < 64; ++k) {
+  for (int k = 0; k < 128; ++k) {
     const Vec3 z = difference(a, b, v);
     if (square >= 0 && square - v.dot(z) <= tolerance * square) break;
     simplex.z[simplex.count++] = z;

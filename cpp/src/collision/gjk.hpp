@@ -12,9 +12,10 @@ inline Vec3 difference(const Solid& a, const Solid& b, const Vec3& n) {
   return support(a, -n) - support(b, n);
 }
 
-/// From b to a, where they are apart by more than 1e-7 of their size; else nothing, as n would be
-/// mostly rounding.
-std::optional<Vec3> direction_apart(const Solid& a, const Solid& b);
+/// From b to a where they are apart, else nothing. Where they nearly touch this may be rounding:
+/// check what follows from it. The square of the distance is found to a part of `tolerance`, n to
+/// its root.
+std::optional<Vec3> direction_apart(const Solid& a, const Solid& b, double tolerance);
 
 /// Where they overlap, or just do not.
 Vec3 direction_through(const Solid& a, const Solid& b);

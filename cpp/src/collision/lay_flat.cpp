@@ -39,7 +39,7 @@ double outside(const Flat& f, const Vec3& x, const Vec3& n) {
 
 Feature flat_feature(const Flat& f, const Vec3& x, const Vec3& n) {
   const bool cylinder = f.solid->kind == Solid::Kind::cylinder;
-  Feature out;
+  Feature out = vertex_at(x);
   if (is_disc(f) || f.corners > 2) {
     out.kind = Kind::face;
     out.t0 = n.unitOrthogonal();
@@ -47,9 +47,7 @@ Feature flat_feature(const Flat& f, const Vec3& x, const Vec3& n) {
   } else if (f.corners == 2) {
     out = cylinder ? side_at(*f.solid, x) : edge_between(f.at(0), f.at(1));
   } else if (f.solid->kind == Solid::Kind::ellipsoid) {
-    out.kind = Kind::surface;
-    out.x = x;
-    slide(*f.solid, 0, 0, out);
+    out = surface_at(*f.solid, f.along);
   } else if (cylinder) {
     out = rim_at(*f.solid, x);
   }
@@ -64,9 +62,7 @@ Feature corner_feature(const Flat& f, const Vec3& x, const Vec3& n) {
     point.corners = 1;
     return flat_feature(point, x, n);
   }
-  Feature out;
-  out.x = x;
-  return out;
+  return vertex_at(x);
 }
 
 Feature outline_feature(const Flat& f, const Vec3& from, const Vec3& to, const Vec3& x) {
@@ -171,9 +167,12 @@ void offer_circles(const Flat& f, const Flat& g, const Vec3& n, Shared& shared) 
 
 }  // namespace
 
-void lay_flat(const Solid& A, const Solid& B, double tolerance, Meeting& out) {
-  constexpr double level = 1e-14;  // what rounding leaves of a face's normal, turned twice
-  const Flat f = flat_along(A, -out.n, level), g = flat_along(B, out.n, level);
+void lay_flat(const Solid& A, const Solid& B, bool of_a, double tolerance, Meeting& out) {
+  // the one whose normal n is knows its face by it; what tilts the other by more than rounding is
+  // no flat
+  constexpr double own = 1e-12, other = 3e-15;
+  const Flat f = flat_along(A, -out.n, of_a ? own : other);
+  const Flat g = flat_along(B, out.n, of_a ? other : own);
   const bool extended = (is_disc(f) || f.corners > 1) && (is_disc(g) || g.corners > 1);
   if (!extended && out.past <= tolerance) return;
   Meeting flat = out;

@@ -10,9 +10,9 @@
 //   [ E^T T  -E^T S  -d I  ] [ mu  ]     [  E^T (x - y) ]
 #include "collision/meeting.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace saltus {
 namespace {
@@ -51,20 +51,45 @@ bool meet_straight(Feature& a, Feature& b, Vec3& n) {
   return n.dot(guess) > 0.1;
 }
 
-using Mat32 = Eigen::Matrix<double, 3, 2>;
+/// M and -r, side by side: rows of a's tangents, of b's, and of the two axes across n.
+struct System {
+  double row[6][7] = {};
+  int size = 0;
 
-/// Rows and columns of one feature; unused ones are those of the unit matrix.
-void add_feature(const Patch& f, double sign, const Vec3& n, const Mat32& E, int first, Mat6& M,
-                 Vec6& r) {
+  /// Gauss's elimination with row pivots; false where it is singular. The solution is the last
+  /// column.
+  bool solve() {
+    for (int k = 0; k < size; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < size; ++i) {
+        if (std::abs(row[i][k]) > std::abs(row[pivot][k])) pivot = i;
+      }
+      if (!(std::abs(row[pivot][k]) > 1e-300)) return false;
+      if (pivot != k) std::swap(row[pivot], row[k]);
+      for (int i = k + 1; i < size; ++i) {
+        const double factor = row[i][k] / row[k][k];
+        for (int j = k + 1; j < 7; ++j) row[i][j] -= factor * row[k][j];
+      }
+    }
+    for (int k = size - 1; k >= 0; --k) {
+      for (int j = k + 1; j < size; ++j) row[k][6] -= row[k][j] * row[j][6];
+      row[k][6] /= row[k][k];
+    }
+    return true;
+  }
+};
+
+/// Rows and columns of one feature, from `first`; those of n's turn are from `turn`.
+void add_feature(const Patch& f, double sign, const Vec3& n, const Vec3 (&E)[2], int first,
+                 int turn, System& M) {
   const double K[2][2] = {{f.k00, f.k01}, {f.k01, f.k11}};
   const Vec3* t[2] = {&f.t0, &f.t1};
-  for (int i = 0; i < 2; ++i) {
-    if (i >= f.dim) M(first + i, first + i) = 1;
-    if (i >= f.dim) continue;
-    for (int j = 0; j < f.dim; ++j) M(first + i, first + j) = sign * K[i][j];
-    M.block<1, 2>(first + i, 4) = sign * t[i]->transpose() * E;
-    M.block<2, 1>(4, first + i) = M.block<1, 2>(first + i, 4).transpose();
-    r[first + i] = sign * t[i]->dot(n);
+  for (int i = 0; i < f.dim; ++i) {
+    for (int j = 0; j < f.dim; ++j) M.row[first + i][first + j] = sign * K[i][j];
+    for (int j = 0; j < 2; ++j) {
+      M.row[first + i][turn + j] = M.row[turn + j][first + i] = sign * t[i]->dot(E[j]);
+    }
+    M.row[first + i][6] = -sign * t[i]->dot(n);
   }
 }
 
@@ -73,27 +98,43 @@ struct State {
   Vec3 n;
 };
 
-/// One step of Newton's method; returns the residual before it, angles counted as `length`.
+/// [m] what the slant of n against a feature's tangents counts as: the way to where it has none,
+/// where the feature bends more than over `length`. A sharp end tells n only to rounding times
+/// bend.
+double slant(const Patch& f, const Vec3& n, double length) {
+  double out = 0;
+  if (f.dim > 0) out += std::abs(f.t0.dot(n)) / (1 / length + std::abs(f.k00));
+  if (f.dim > 1) out += std::abs(f.t1.dot(n)) / (1 / length + std::abs(f.k11));
+  return out;
+}
+
+/// One step of Newton's method; returns the residual [m] before it.
 double newton_step(const Solid& A, const Solid& B, double length, State& x) {
-  Mat32 E;
-  E.col(0) = x.n.unitOrthogonal();
-  E.col(1) = x.n.cross(E.col(0));
-  const Vec3 w = x.a.x - x.b.x;
-  Mat6 M = Mat6::Zero();
-  Vec6 r = Vec6::Zero();
-  add_feature(patch_of(A, x.a, x.n), 1, x.n, E, 0, M, r);
-  add_feature(patch_of(B, x.b, x.n), -1, x.n, E, 2, M, r);
-  M(4, 4) = M(5, 5) = -x.n.dot(w);
-  r.tail<2>() = E.transpose() * w;
-  const double residual = r.tail<2>().norm() + length * r.head<4>().norm();
-  const Vec6 step = -M.partialPivLu().solve(r);
-  if (!step.allFinite()) return residual;
-  const double turn = step.tail<2>().norm(), shorter = turn > 0.3 ? 0.3 / turn : 1;
+  const Vec3 first_axis = x.n.unitOrthogonal(), w = x.a.x - x.b.x;
+  const Vec3 E[2] = {first_axis, x.n.cross(first_axis)};
+  const Patch a = patch_of(A, x.a, x.n), b = patch_of(B, x.b, x.n);
+  const int turn = a.dim + b.dim;
+  System M;
+  M.size = turn + 2;
+  add_feature(a, 1, x.n, E, 0, turn, M);
+  add_feature(b, -1, x.n, E, a.dim, turn, M);
+  for (int j = 0; j < 2; ++j) {
+    M.row[turn + j][turn + j] = -x.n.dot(w);
+    M.row[turn + j][6] = -E[j].dot(w);
+  }
+  const double residual = std::hypot(M.row[turn][6], M.row[turn + 1][6]) + slant(a, x.n, length) +
+                          slant(b, x.n, length);
+  if (!M.solve()) return residual;
+  const double u = M.row[turn][6], v = M.row[turn + 1][6], turned = std::hypot(u, v);
+  if (!std::isfinite(turned)) return residual;
+  const double shorter = turned > 0.3 ? 0.3 / turned : 1;
   // no farther than a solid's length
-  const auto held = [&](int k) { return std::clamp(shorter * step[k], -length, length); };
-  slide(A, held(0), held(1), x.a);
-  slide(B, held(2), held(3), x.b);
-  x.n = (x.n + shorter * E * step.tail<2>()).normalized();
+  const auto held = [&](int first, int k, int dim) {
+    return k < dim ? std::clamp(shorter * M.row[first + k][6], -length, length) : 0;
+  };
+  slide(A, held(0, 0, a.dim), held(0, 1, a.dim), x.a);
+  slide(B, held(a.dim, 0, b.dim), held(a.dim, 1, b.dim), x.b);
+  x.n = (x.n + shorter * (u * E[0] + v * E[1])).normalized();
   return residual;
 }
 

@@ -1,7 +1,8 @@
 // Supports of the five cores, and how witnesses move on the features of their surfaces.
 //
 // Unit-speed curves: an edge bends nowhere, a rim or the round of a cylinder's side by -w/r (w from
-// the axis), an ellipsoid as in ellipsoid_patch.hpp.
+// the axis), an ellipsoid as in ellipsoid_patch.hpp, with
+// x = r e, q = e/r for a point e of the unit sphere.
 #include "collision/solid.hpp"
 
 #include <cmath>
@@ -68,7 +69,24 @@ Vec3 farthest(const Solid& s, const Vec3& d) {
   }
 }
 
+/// The witness on an ellipsoid at the point e of the unit sphere, of any length here. Kept there it
+/// tells the normal to rounding, however flat the ellipsoid.
+void put(const Solid& s, const Vec3& e, Feature& f) {
+  f.center = e.normalized();
+  f.x = s.p + s.R * s.size.cwiseProduct(f.center);
+  const Vec3 normal = s.R * f.center.cwiseQuotient(s.size).normalized();
+  f.t0 = normal.unitOrthogonal();
+  f.t1 = normal.cross(f.t0);
+}
+
 }  // namespace
+
+Feature surface_at(const Solid& s, const Vec3& m) {
+  Feature f = vertex_at(s.p);
+  f.kind = Kind::surface;
+  put(s, s.size.cwiseProduct(s.R.transpose() * m), f);
+  return f;
+}
 
 Solid solid_of(const Capsule& s, const Mat3& R, const Vec3& p) {
   Solid out = solid(Solid::Kind::segment, {0, 0, s.half_length}, R, p);
@@ -102,14 +120,9 @@ void slide(const Solid& s, double u, double v, Feature& f) {
     f.x += u * f.t0 + v * f.t1;
     return;
   }
-  if (f.kind == Kind::surface) {  // along the tangents, then back by the ray from the middle
-    const Vec3 y = s.R.transpose() * (f.x + u * f.t0 + v * f.t1 - s.p);
-    const Vec3 x = y / y.cwiseQuotient(s.size).norm();
-    const Vec3 q = s.R * ellipsoid_normal({s.size}, x);
-    f.x = s.p + s.R * x;
-    f.t0 = q.unitOrthogonal();
-    f.t1 = q.normalized().cross(f.t0);
-    return;
+  if (f.kind == Kind::surface) {  // over the unit sphere
+    const Vec3 step = s.R.transpose() * (u * f.t0 + v * f.t1);
+    return put(s, f.center + step.cwiseQuotient(s.size), f);
   }
   const double r = s.size.x(), angle = u / r;
   const Vec3 z = s.R.col(2);
@@ -122,18 +135,16 @@ void slide(const Solid& s, double u, double v, Feature& f) {
 
 Patch patch_of(const Solid& s, const Feature& f, const Vec3& n) {
   if (f.kind == Kind::surface) {
-    const Mat3 Rt = s.R.transpose();
-    Patch out = ellipsoid_patch({s.size}, Rt * (f.x - s.p), Rt * n);
-    // `slide` measures along f's tangents, made from the same normal in other axes
-    const Vec3 a = (Rt * f.t0).cwiseQuotient(s.size), b = (Rt * f.t1).cwiseQuotient(s.size);
-    const Vec3 q = ellipsoid_normal({s.size}, Rt * (f.x - s.p));
-    const double bend = -(Rt * n).dot(q) / q.squaredNorm();
-    out.t0 = f.t0;
-    out.t1 = f.t1;
-    out.k00 = bend * a.squaredNorm();
-    out.k01 = bend * a.dot(b);
-    out.k11 = bend * b.squaredNorm();
-    return out;
+    const Vec3 q = f.center.cwiseQuotient(s.size);
+    const Vec3 a = (s.R.transpose() * f.t0).cwiseQuotient(s.size);
+    const Vec3 b = (s.R.transpose() * f.t1).cwiseQuotient(s.size);
+    const double bend = -(s.R.transpose() * n).dot(q) / q.squaredNorm();
+    return {.dim = 2,
+            .t0 = f.t0,
+            .t1 = f.t1,
+            .k00 = bend * a.squaredNorm(),
+            .k01 = bend * a.dot(b),
+            .k11 = bend * b.squaredNorm()};
   }
   Patch out{.dim = f.dim(), .t0 = f.t0, .t1 = f.t1};
   if (f.kind == Kind::rim || f.kind == Kind::side) {

@@ -33,16 +33,16 @@ Vec3 support(const Solid& s, const Vec3& m);
 /// A piece of surface that a witness may move on.
 struct Feature {
   enum class Kind { vertex, edge, face, rim, side, surface };
-  Kind kind = Kind::vertex;
-  Vec3 x = Vec3::Zero();                      ///< the witness on it
-  Vec3 t0 = Vec3::Zero(), t1 = Vec3::Zero();  ///< unit tangents at x, across each other
-  Vec3 center = Vec3::Zero();                 ///< edge, side: middle; rim: of the circle
-  double half = 0;                            ///< edge: along t0, side: along t1
+  Kind kind;
+  Vec3 x;       ///< the witness on it
+  Vec3 t0, t1;  ///< unit tangents at x, across each other; zero where there are fewer
+  Vec3 center;  ///< edge, side: middle; rim: of the circle; surface: x on the unit sphere
+  double half;  ///< [m] edge: along t0, side: along t1
 
-  int dim() const { return kind == Kind::vertex ? 0 : kind <= Kind::edge ? 1 : other_dim(); }
-
- private:
-  int other_dim() const { return kind == Kind::rim ? 1 : 2; }
+  int dim() const {
+    if (kind == Kind::vertex) return 0;
+    return kind == Kind::edge || kind == Kind::rim ? 1 : 2;
+  }
 };
 
 /// Moves the witness by (u, v) along the tangents to first order, and stays on the feature.
@@ -54,6 +54,9 @@ Patch patch_of(const Solid& s, const Feature& f, const Vec3& n);
 /// [m] how far the witness is past the feature's end; not above 0 within.
 double beyond(const Feature& f);
 
+Feature vertex_at(const Vec3& x);
+/// On an ellipsoid, where it is farthest along m.
+Feature surface_at(const Solid& s, const Vec3& m);
 /// On a cylinder: its nearer rim, its side, at the point x of either.
 Feature rim_at(const Solid& s, const Vec3& x);
 Feature side_at(const Solid& s, const Vec3& x);
@@ -62,7 +65,7 @@ Feature edge_between(const Vec3& from, const Vec3& to);
 /// What is near the farthest place along the unit m: features whose normals come within an angle
 /// of about `width`, and flat faces by their normals alone.
 struct Nearby {
-  static constexpr int capacity = 16;
+  static constexpr int capacity = 32;
   Feature features[capacity];
   int count = 0;
   Vec3 normals[capacity];
@@ -85,6 +88,7 @@ struct Flat {
   Vec3 corner[4];                    ///< where there is no face
   const Hull::Face* face = nullptr;  ///< of a hull
   const Solid* solid = nullptr;
+  Vec3 along = Vec3::Zero();                                       ///< the direction
   Vec3 center = Vec3::Zero(), u = Vec3::Zero(), v = Vec3::Zero();  ///< disc and two axes
   double radius = 0;
 

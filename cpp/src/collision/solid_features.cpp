@@ -13,12 +13,6 @@ namespace {
 
 using Kind = Feature::Kind;
 
-Feature vertex_at(const Vec3& x) {
-  Feature f;
-  f.x = x;
-  return f;
-}
-
 /// Half lengths along three axes, of which a segment has one.
 void nearby_box(const Solid& s, const Vec3& d, double width, Nearby& out) {
   const int first = s.kind == Solid::Kind::box ? 0 : 2;
@@ -139,24 +133,20 @@ void flat_cylinder(const Solid& s, const Vec3& d, double level, Flat& out) {
 
 }  // namespace
 
+Feature vertex_at(const Vec3& x) {
+  const Vec3 none = Vec3::Zero();
+  return {Kind::vertex, x, none, none, none, 0};
+}
+
 Feature edge_between(const Vec3& from, const Vec3& to) {
-  Feature f;
-  f.kind = Kind::edge;
-  f.x = f.center = 0.5 * (from + to);
-  f.half = 0.5 * (to - from).norm();
-  f.t0 = (to - from) / (2 * f.half);
-  return f;
+  const Vec3 middle = 0.5 * (from + to);
+  const double length = (to - from).norm();
+  return {Kind::edge, middle, (to - from) / length, Vec3::Zero(), middle, 0.5 * length};
 }
 
 Feature side_at(const Solid& s, const Vec3& x) {
-  Feature f;
-  f.kind = Kind::side;
-  f.x = x;
-  f.center = s.p;
-  f.half = s.size.z();
-  f.t1 = s.R.col(2);
-  f.t0 = f.t1.cross(x - s.p).normalized();
-  return f;
+  const Vec3 z = s.R.col(2);
+  return {Kind::side, x, z.cross(x - s.p).normalized(), z, s.p, s.size.z()};
 }
 
 Feature rim_at(const Solid& s, const Vec3& x) {
@@ -179,16 +169,13 @@ void find_nearby(const Solid& s, const Vec3& m, double width, Nearby& out) {
   if (s.kind == Solid::Kind::hull) return nearby_hull(s, d, width, out);
   if (s.kind == Solid::Kind::cylinder) return nearby_cylinder(s, d, width, out);
   if (s.kind != Solid::Kind::ellipsoid) return nearby_box(s, d, width, out);
-  Feature f;
-  f.kind = Kind::surface;
-  f.x = support(s, m);
-  slide(s, 0, 0, f);
-  out.add(f);
+  out.add(surface_at(s, m));
 }
 
 Flat flat_along(const Solid& s, const Vec3& m, double level) {
   Flat out;
   out.solid = &s;
+  out.along = m;
   const Vec3 d = s.R.transpose() * m;
   if (s.kind == Solid::Kind::hull) {
     flat_hull(s, d, level, out);

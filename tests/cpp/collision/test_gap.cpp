@@ -77,7 +77,7 @@ TEST_P(AllPairs, MovesWithTheBodies) {
     x.X_WB = X * x.X_WB;
     const Gap h = x.gap();
     // rounding of the products, 1e-13 at 1 km, over the least length of a feature
-    const double rounding = 1e-15 * x.scale();
+    const double rounding = 2e-15 * x.scale();
     EXPECT_NEAR(g.phi, h.phi, rounding);
     const double bend = 1 + curvature(g).norm();
     EXPECT_LE((X.R * g.n_W - h.n_W).norm(), rounding * bend);
