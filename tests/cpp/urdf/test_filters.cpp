@@ -72,7 +72,7 @@ TEST(UrdfFilters, MistakesAreErrors) {
   expect_contains(
       what("<group name=\"x\" links=\"a e\"/>"),
       "group \"x\" names link \"e\", which does not exist; links are world, a, b, c, d");
-  expect_contains(what("<group links=\"a\"/>"), "group is without attribute \"name\"");
+  expect_contains(what("<group links=\"a\"/>"), "<group> is without attribute \"name\"");
   expect_contains(what("<group name=\"x\"/>"), "group \"x\" is without attribute \"links\"");
   expect_contains(what(x + "\n" + x), "group \"x\" has the name of another group");
   expect_contains(what(x + "<group name=\"y\" links=\"b\"/>"),

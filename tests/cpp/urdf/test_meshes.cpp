@@ -63,8 +63,10 @@ TEST_F(UrdfMeshes, OfAllFormatsAreTheirHulls) {
     const Model model = load(robot_with(file, content));
     ASSERT_EQ(model->shapes.size(), 1u) << file;
     expect_points(vertices(model), tetrahedron().points);
-    expect_near(model->shapes[0].X_JG.p, {1, 2, 3});
-    expect_near(model->shapes[0].X_JG.R, rotation_from_rpy(0, 0, 0.5), 4e-16);
+    const Pose X_JL = model->links[static_cast<std::size_t>(model.link("body"))].X_JL;
+    const Pose X_LG = X_JL.inverse() * model->shapes[0].X_JG;
+    expect_near(X_LG.p, {1, 2, 3});
+    expect_near(X_LG.R, rotation_from_rpy(0, 0, 0.5), 4e-16);
     expect_warning(model, {"r.urdf:4: link \"body\" has a collision mesh, used as its convex hull",
                            "\"" + file + "\" (4 of its 5 vertices)"});
   }
@@ -105,8 +107,8 @@ TEST_F(UrdfMeshes, OfTheSameFileAndScaleShareAHull) {
   EXPECT_NE(hulls[0], hulls[1]);
   EXPECT_NE(hulls[0], hulls[3]);
   ASSERT_EQ(model->warnings.size(), 1u);  // one line for all of them
-  expect_warning(model, {"3 collision meshes are used as their convex hulls", "\"a.obj\" (4 of",
-                         "\"sub/b.obj\" (4 of"});
+  expect_warning(model, {"3 collision meshes are used as their convex hulls",
+                         "hulls: a.obj (4 of its 4 vertices), a.obj", "b.obj (4 of"});
 }
 
 TEST_F(UrdfMeshes, ThatAreMissingAreOneWarning) {
