@@ -101,7 +101,7 @@ void bind_urdf(py::module_& m) {
         py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"),
         py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
         py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
-        py::arg_v("srdf", std::optional<PathLike>{}, "None"));
+        py::arg_v("srdf", py::none(), "None"));
 }
 
 }  // namespace saltus::bindings

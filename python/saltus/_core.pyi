@@ -11,12 +11,15 @@ import os
 import typing
 
 __all__: list[str] = [
+    "AdjacentLinks",
     "BatchTrajectory",
     "BodyInertia",
     "Box",
     "Capsule",
+    "Convex",
     "Coordinate",
     "Cylinder",
+    "Ellipsoid",
     "Energies",
     "Gap",
     "Gaps",
@@ -30,6 +33,7 @@ __all__: list[str] = [
     "JointType",
     "LagrangianPartials",
     "Link",
+    "MeshUse",
     "Mimic",
     "Model",
     "ModelBuilder",
@@ -334,6 +338,49 @@ class HalfSpace:
     def __init__(self) -> None: ...
     def __repr__(self) -> str: ...
 
+class Ellipsoid:
+    """
+    (x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.
+    """
+    def __init__(
+        self, radii: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def radii(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] shape (3,)
+        """
+
+class Convex:
+    """
+    The convex hull of points, facets that are coplanar joined.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        [m] 4 or more, not in a plane; those inside are dropped.
+
+    Raises
+    ------
+    ModelError
+        Where they are too few, not finite, or thinner than 1e-6 of their length.
+    """
+    def __init__(
+        self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def faces(self) -> list[list[int]]:
+        """
+        vertices of each face, counterclockwise seen from outside
+        """
+    @property
+    def vertices(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        [m] the points that are corners of the hull, shape (n, 3)
+        """
+
 class Gap:
     """
     The gap between two shapes a and b.
@@ -383,9 +430,9 @@ class PlacedShape:
         the link's name, "#k" added where a link has several
         """
     @property
-    def shape(self) -> Sphere | Capsule | Box | Cylinder | HalfSpace:
+    def shape(self) -> Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex:
         """
-        Sphere, Capsule, Box, Cylinder or HalfSpace
+        Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
         """
 
 class Pair:
@@ -916,6 +963,16 @@ class Mimic:
         [rad | m]
         """
 
+class AdjacentLinks(enum.Enum):
+    """
+    Are gaps watched between links on both sides of one joint? They overlap at it by design.
+
+    Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
+    """
+
+    excluded = ...
+    watched = ...
+
 class ModelBuilder:
     """
     Describes a model link by link; `build` checks and freezes it.
@@ -932,13 +989,32 @@ class ModelBuilder:
     """
     def __init__(self, name: str = "model", root: str = "world") -> None: ...
     def __repr__(self) -> str: ...
-    def add_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
+    def add_body_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
         """
-        Lets two links pass through each other: no gap is watched between them.
+        As `add_exclusion`, but half-spaces of these links stay watched.
 
         Parameters
         ----------
         link_a, link_b : str
+        """
+    def add_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
+        """
+        Lets two links pass through each other: no gap is watched between them.
+
+        Half-spaces belong to the root link.
+
+        Parameters
+        ----------
+        link_a, link_b : str
+        """
+    def add_group_exclusion(self, group_a: str, group_b: str) -> ModelBuilder:
+        """
+        Lets the links of two groups pass through each other.
+
+        Parameters
+        ----------
+        group_a, group_b : str
+            The same one twice: its links pass through each other.
         """
     def add_half_space(
         self,
@@ -1021,7 +1097,10 @@ class ModelBuilder:
             On a name that is taken and on an inertia that no body can have.
         """
     def add_shape(
-        self, link: str, shape: Sphere | Capsule | Box | Cylinder | HalfSpace, X_LG: Pose = ...
+        self,
+        link: str,
+        shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
+        X_LG: Pose = ...,
     ) -> ModelBuilder:
         """
         Adds a shape that can touch others.
@@ -1061,6 +1140,16 @@ class ModelBuilder:
         """
         The checks of `build` alone; raises ModelError.
         """
+    def set_adjacent_links(self, adjacent: AdjacentLinks) -> ModelBuilder:
+        """
+        Says whether links on both sides of one joint may collide.
+
+        What is welded together never does.
+
+        Parameters
+        ----------
+        adjacent : AdjacentLinks
+        """
     def set_gravity(
         self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> ModelBuilder:
@@ -1071,6 +1160,16 @@ class ModelBuilder:
         ----------
         gravity : array_like, shape (3,)
             [m/s^2]
+        """
+    def set_group(self, link: str, group: str) -> ModelBuilder:
+        """
+        Puts a link into a group, of which it has one at most.
+
+        Parameters
+        ----------
+        link : str
+        group : str
+            Any name; `add_group_exclusion` says what it is good for.
         """
     def set_solver(self, solver: TreeSolver) -> ModelBuilder:
         """
@@ -1085,6 +1184,14 @@ class ModelBuilder:
         """
     @property
     def warnings(self) -> list[str]: ...
+
+class MeshUse(enum.Enum):
+    """
+    What becomes of collision meshes: convex solids around them, or nothing.
+    """
+
+    hull = ...
+    none = ...
 
 class ImpactLaw(enum.IntEnum):
     """
@@ -1508,9 +1615,9 @@ def energies(
     """
 
 def gap(
-    a: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    a: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
     X_WA: Pose,
-    b: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    b: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
     X_WB: Pose,
 ) -> Gap:
     """
@@ -1518,7 +1625,7 @@ def gap(
 
     Parameters
     ----------
-    a, b : Sphere, Capsule, Box, Cylinder or HalfSpace
+    a, b : Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
     X_WA, X_WB : Pose
         Where they are.
 
@@ -1543,8 +1650,8 @@ def gap_table() -> list[tuple[str, str]]:
     """
 
 def has_gap(
-    a: Sphere | Capsule | Box | Cylinder | HalfSpace,
-    b: Sphere | Capsule | Box | Cylinder | HalfSpace,
+    a: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
+    b: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
 ) -> bool:
     """
     True where `gap` knows the two kinds of shape, in either order.
@@ -1557,6 +1664,8 @@ def read_urdf(
     package_dirs: collections.abc.Iterable[str | os.PathLike[str]] = (),
     root_joint: JointType = ...,
     solver: TreeSolver = ...,
+    meshes: MeshUse = ...,
+    srdf: str | os.PathLike[str] | None = None,
 ) -> ModelBuilder:
     """
     Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -1573,6 +1682,10 @@ def read_urdf(
         How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
     solver : TreeSolver
         How steps solve for velocities, see `ModelBuilder.set_solver`.
+    meshes : MeshUse
+        What becomes of collision meshes, where the file does not say it.
+    srdf : str or os.PathLike, optional
+        SRDF, a file or text: which links never collide.
 
     Returns
     -------
@@ -1646,9 +1759,9 @@ def rotation_from_rpy(
     numpy.ndarray, shape (3, 3)
     """
 
-def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace) -> str:
+def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex) -> str:
     """
-    "sphere", "capsule", "box", "cylinder" or "half_space".
+    "sphere", "capsule", "box", "cylinder", "half_space", "ellipsoid" or "convex".
     """
 
 def simulate(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from saltus._core import (
+    Convex,
     ImpactLaw,
     JointType,
     MeshUse,
@@ -186,8 +187,9 @@ def _check_model(
 def _urdf_options(model: Model) -> UrdfOptions | None:
     """Return the options with which `load_urdf` makes this model of its text.
 
-    None where there is no text, or where the model was changed after it was read: links, joints,
-    shapes or pairs then differ. A solver that makes the same of its trees gives the same bits.
+    None where there is no text, or where the model was changed after it was read, or needs other
+    files (meshes, SRDF): links, joints, shapes or pairs then differ. A solver that makes the same
+    of its trees gives the same bits.
     """
     if not model.source:
         return None
@@ -207,7 +209,8 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
 
 
 def _parts(model: Model) -> tuple[list[str], ...]:
-    shapes = [shape.name for shape in model.shapes]
+    # A mesh that is in no pair has no part in the motion, and its file may be gone.
+    shapes = [s.name for s in model.shapes if not isinstance(s.shape, Convex)]
     names = model.link_names, model.joint_names, model.coordinate_names, shapes
     pairs = model.pair_names if model.n_pairs <= LISTED_PAIRS else [str(model.n_pairs)]
     return *names, pairs, [repr(trees) for trees in model.solvers]

@@ -35,6 +35,7 @@ set(SALTUS_TEST_model
   model/test_assembly.cpp
   model/test_build_errors.cpp
   model/test_builder_errors.cpp
+  model/test_filter.cpp
   model/test_golden.cpp
   model/test_model.cpp
   model/test_pairs.cpp
@@ -54,9 +55,11 @@ set(SALTUS_TEST_rollout
   rollout/test_simulate.cpp
 )
 set(SALTUS_TEST_urdf
+  urdf/test_filters.cpp
   urdf/test_fuzz.cpp
   urdf/test_joints.cpp
   urdf/test_links.cpp
+  urdf/test_meshes.cpp
   urdf/test_model_files.cpp
   urdf/test_number_errors.cpp
   urdf/test_shapes.cpp

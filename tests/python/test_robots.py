@@ -26,6 +26,17 @@ FREE_BASE = ("x", "y", "z", "yaw", "pitch", "roll")
 TOLERANCE = 1e-12
 
 
+# What is wrong with files of example-robot-data.
+REFUSED = {
+    "alex_psyonic_hands": "mimics joint",
+    "bolt": "has an inertia but no mass",
+    "romeo": "moves no mass",
+    "romeo_laas_small": "that no body can have",
+    "romeo_small": "that no body can have",
+    "ur3": "has no <link>",
+}
+
+
 @dataclass(frozen=True)
 class Robot:
     path: str
@@ -33,20 +44,36 @@ class Robot:
     floating: bool = False
     warning: str = "mesh"  # some of what the file has and we do not use
     energy_band: float = 1e-8  # in a free motion of 1 s at h = 1 ms, see below
+    srdf: str | None = None
 
 
 ROBOTS = {
     # one finger mimics the other
-    "panda": Robot("panda_description/urdf/panda.urdf", 8, energy_band=1e-4),
+    "panda": Robot(
+        "panda_description/urdf/panda.urdf",
+        8,
+        energy_band=1e-4,
+        srdf="panda_description/srdf/panda.srdf",
+    ),
     "anymal": Robot(
         "anymal_b_simple_description/robots/anymal.urdf",
         12 + 6,
         floating=True,
         warning='link "base" has principal moments',
     ),
-    "talos": Robot("talos_data/robots/talos_reduced.urdf", 32 + 6, floating=True),
+    "talos": Robot(
+        "talos_data/robots/talos_reduced.urdf",
+        32 + 6,
+        floating=True,
+        srdf="talos_data/srdf/talos.srdf",
+    ),
     "tiago": Robot("tiago_description/robots/tiago.urdf", 48),
-    "ur5": Robot("ur_description/urdf/ur5_robot.urdf", 6, energy_band=1e-5),
+    "ur5": Robot(
+        "ur_description/urdf/ur5_robot.urdf",
+        6,
+        energy_band=1e-5,
+        srdf="ur_description/srdf/ur5.srdf",
+    ),
 }
 
 
@@ -58,13 +85,14 @@ def robots_folder() -> Path:
     return Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots")).resolve()
 
 
-def load_anew(name: str) -> saltus.Model:
+def load_anew(name: str, **options) -> saltus.Model:
     robot, kinds = ROBOTS[name], saltus.JointType
     folder = robots_folder()
     return saltus.load_urdf(
         folder / robot.path,
         package_dirs=[folder, folder.parent],
         root_joint=kinds.floating if robot.floating else kinds.fixed,
+        **options,
     )
 
 
@@ -172,6 +200,40 @@ def test_loads(name):
     assert model.n_q == robot.n_q
     assert [str(warning.message) for warning in caught] == model.warnings
     assert any(robot.warning in text for text in model.warnings)
+
+
+@each_robot
+def test_collision_meshes_are_hulls(name):
+    hulls = [s.shape for s in load(name).shapes if isinstance(s.shape, saltus.Convex)]
+    meshes = ET.parse(robots_folder() / ROBOTS[name].path).findall("link/collision/geometry/mesh")
+    assert len(hulls) == len(meshes)
+    for hull in hulls:
+        assert all(len(face) >= 3 for face in hull.faces)
+        size = np.ptp(hull.vertices, axis=0)
+        assert (size > 1e-3).all()
+        assert (size < 2).all()
+
+
+@pytest.mark.parametrize("name", [name for name, robot in ROBOTS.items() if robot.srdf])
+@pytest.mark.filterwarnings("ignore::saltus.ModelWarning")
+def test_srdf_names_its_links(name):
+    model = load_anew(name, srdf=robots_folder() / ROBOTS[name].srdf)
+    assert not [text for text in model.warnings if "has not" in text]
+    assert set(model.pair_names) <= set(load(name).pair_names)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::saltus.ModelWarning")
+def test_every_robot_loads_with_its_meshes():
+    folder = robots_folder()
+    paths = sorted(folder.rglob("*.urdf"))
+    assert len(paths) > 60
+    for path in paths:
+        if path.stem in REFUSED:
+            with pytest.raises(saltus.ModelError, match=REFUSED[path.stem]):
+                saltus.load_urdf(path, package_dirs=[folder, folder.parent])
+        else:
+            saltus.load_urdf(path, package_dirs=[folder, folder.parent])
 
 
 @each_robot

@@ -51,18 +51,22 @@ std::shared_ptr<const Hull> CollisionMeshes::hull_of(const std::filesystem::path
   std::vector<Vec3> vertices = read_mesh(file);
   for (Vec3& v : vertices) v = v.cwiseProduct(scale);
   hull = std::make_shared<const Hull>(convex_hull(vertices, "has no convex hull"));
-  used_.push_back(in_quotes(name) + " (" + std::to_string(hull->vertices.size()) + " of its " +
-                  std::to_string(vertices.size()) + " vertices)");
+  used_.push_back({name, " (" + std::to_string(hull->vertices.size()) + " of its " +
+                             std::to_string(vertices.size()) + " vertices)"});
   return hull;
 }
 
 void CollisionMeshes::warn(ModelBuilder& builder) const {
   if (used_.size() == 1) {
-    builder.add_warning(first_used_ +
-                        "has a collision mesh, used as its convex hull: " + used_.front());
+    builder.add_warning(first_used_ + "has a collision mesh, used as its convex hull: " +
+                        in_quotes(used_.front().uri) + used_.front().count);
   } else if (!used_.empty()) {
+    std::vector<std::string> files;  // without their folders, for a line that can be read
+    for (const Used& used : used_) {
+      files.push_back(used.uri.substr(used.uri.find_last_of('/') + 1) + used.count);
+    }
     builder.add_warning(first_used_ + "and below: " + std::to_string(used_.size()) +
-                        " collision meshes are used as their convex hulls: " + list_names(used_));
+                        " collision meshes are used as their convex hulls: " + list_names(files));
   }
   if (missing_ == 0) return;
   const std::string others =

@@ -43,7 +43,10 @@ class CollisionMeshes {
   MeshUse use_;
   std::map<std::string, MeshUse> use_of_link_;
   std::map<Key, std::shared_ptr<const Hull>> hulls_;
-  std::vector<std::string> used_;           // one text for each of hulls_
+  struct Used {
+    std::string uri, count;
+  };
+  std::vector<Used> used_;                  // one for each of hulls_
   std::string first_used_, first_missing_;  // the place in the file, and the link
   int missing_ = 0;
 };

@@ -117,6 +117,7 @@ void Document::fail(const XMLElement& where, const Owner& owner, const std::stri
 }
 
 ModelError Document::located(const ModelError& error) const {
+  if (std::string(error.what()).rfind(label_ + ":", 0) == 0) return error;  // a reader's own
   const XMLElement* culprit = find(error.element, error.name);
   const std::string place = culprit == nullptr ? label_ + ": " : at(*culprit);
   return ModelError(place + error.what(), error.element, error.name);

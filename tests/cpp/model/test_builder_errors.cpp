@@ -134,6 +134,16 @@ Mistake bad_shape(const std::string& label, const std::vector<std::string>& ment
   return {label, "link", "lower", mentions, [shape] { arm().add_shape("lower", shape); }};
 }
 
+/// A tetrahedron that is right but for what `spoil` does.
+Mistake bad_hull(const std::string& label, const std::vector<std::string>& mentions,
+                 const std::function<void(Hull&)>& spoil) {
+  return {label, "link", "lower", mentions, [spoil] {
+            Hull hull = convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+            spoil(hull);
+            arm().add_shape("lower", Convex{std::make_shared<const Hull>(hull)});
+          }};
+}
+
 std::vector<Mistake> shape_mistakes() {
   const Pose no_pose{2 * Mat3::Identity(), Vec3::Zero()};
   return {
@@ -145,6 +155,25 @@ std::vector<Mistake> shape_mistakes() {
       bad_shape("BoxFlat", {"box", "(1 0 1)"}, Box{{1, 0, 1}}),
       bad_shape("BoxFlatInZ", {"box"}, Box{{1, 1, 0}}),
       bad_shape("CylinderFlat", {"cylinder"}, Cylinder{0.1, 0}),
+      bad_shape("EllipsoidFlat", {"\"lower\" has an ellipsoid of size (1 0 1)"},
+                Ellipsoid{{1, 0, 1}}),
+      bad_shape("EllipsoidOfNaN", {"ellipsoid"}, Ellipsoid{{1, 1, nan}}),
+      bad_shape("ConvexOfNothing", {"\"lower\" has a convex without a hull", "convex_hull"},
+                Convex{}),
+      bad_hull("HullWithoutFaces", {"bad hull: 4 vertices, 6 edges and 0 faces make no polytope"},
+               [](Hull& hull) { hull.faces.clear(); }),
+      bad_hull("HullOfNaN", {"a vertex is not finite: (nan 0 0)"},
+               [](Hull& hull) { hull.vertices[0] = Vec3(nan, 0, 0); }),
+      bad_hull("HullWithALongNormal", {"a face has normal", "no unit vector"},
+               [](Hull& hull) { hull.faces[1].normal *= 2; }),
+      bad_hull("HullWithACornerTooMany", {"the corners of a face", "4 vertices"},
+               [](Hull& hull) { hull.faces[1].corners.push_back(4); }),
+      bad_hull("HullInsideOut", {"its center", "not below a face"},
+               [](Hull& hull) { hull.faces[2].offset = -9; }),
+      bad_hull("HullWithAnEdgeTooFar", {"an edge names"},
+               [](Hull& hull) { hull.edges[3].right = 4; }),
+      bad_hull("HullWithoutNeighbours", {"lists of neighbours"},
+               [](Hull& hull) { hull.neighbour.pop_back(); }),
       bad_shape("HalfSpaceMoving", {"\"lower\"", "half-space", "\"world\""}, HalfSpace{}),
       {"ShapePlacement",
        "link",
