@@ -165,8 +165,7 @@ void bind_gap(py::module_& m) {
       .def_readonly("p_WA", &Gap::p_WA, "[m] witness on a's surface, shape (3,)")
       .def_readonly("p_WB", &Gap::p_WB, "[m] witness on b's surface, shape (3,)")
       .def_property_readonly(
-          "F_W", &F_W,
-          "[1/m] second partials of phi for translations of a against b, shape (3, 3)")
+          "F_W", &F_W, "[1/m] second partials of phi for translations of a against b, shape (3, 3)")
       .def("__repr__", [](const Gap& g) { return "Gap(phi=" + show(g.phi) + ")"; });
   m.def("gap", &checked_gap, gap_doc, py::arg("a"), py::arg("X_WA"), py::arg("b"), py::arg("X_WB"));
   m.def("has_gap", &has_gap, "True where `gap` knows the two kinds of shape, in either order.",

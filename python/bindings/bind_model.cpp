@@ -146,7 +146,8 @@ void bind_lists(py::class_<Model>& c) {
                              [](const Model& m) { return names_of(m->coordinates); })
       .def_property_readonly("pair_names", &pair_names,
                              "\"a ~ b\" of every pair, \"a[part] ~ b\" where shapes have several")
-      .def("pair", &Model::pair, py::arg("pair"), "The pair of this number, from 0 to `n_pairs` - 1.")
+      .def("pair", &Model::pair, py::arg("pair"),
+           "The pair of this number, from 0 to `n_pairs` - 1.")
       .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
       .def("pair_kinds", &Model::pair_kinds,
            "How many pairs there are of each two kinds of shape, by their names in alphabetical "

@@ -73,7 +73,7 @@ double advance_core(const Descent& f, double most) {
     const double value = f.at(y, d);
     if (value >= 0) return d;
     const double root = f.root(y);
-    if (!(root < d)) return d;  // its own root, to rounding
+    if (!(root < d)) return d;                   // its own root, to rounding
     if (k == 7) return d * f.g / (f.g - value);  // concave: above the line from (0, g)
     d = root;
   }
@@ -98,8 +98,8 @@ double certified_advance(const Chord& chord, double g, const ChordSample& x,
     lowest = h.m[0].dot(core_support(shape, -h.m[0]));
     most_bend += h.m[2].dot(core_support(shape, h.m[2]));
   }
-  double d = std::fmax(g / bounds.mu,
-                       advance(chord, {shape, h, g, lowest, 0, bounds.B}, remaining));
+  double d =
+      std::fmax(g / bounds.mu, advance(chord, {shape, h, g, lowest, 0, bounds.B}, remaining));
   double D = remaining;
   for (int k = 0; k < 3 && d < D; ++k) {
     const double K = std::fmax(bounds.C * D / 3, most_bend);

@@ -51,8 +51,8 @@ struct Path {
 /// Calls visit(l, x_l, R_l) for each joint of the branch that carries `shape`, from the shape up.
 /// Returns the longest path from the common ancestor to the shape's core.
 template <class Iterator, class Visit>
-double walk_branch(const Chord& chord, const Placed& shape, double sign, Iterator k,
-                   Iterator end, Visit visit) {
+double walk_branch(const Chord& chord, const Placed& shape, double sign, Iterator k, Iterator end,
+                   Visit visit) {
   Path path{shape.X_JG.p, shape.X_JG.p, core_extent(shape.shape)};
   for (; k != end && k->sign == sign; ++k) {
     const int l = k->joint;

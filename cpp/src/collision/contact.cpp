@@ -14,8 +14,7 @@ Vec3 reference_point(const Tree& tree, const Kinematics& kin, int joint) {
 
 /// Pose of a shape with the origin moved to `origin_W`. `kin` holds positions from each tree's O,
 /// so two shapes of one tree keep all digits however far away it is.
-Pose pose_from(const Tree& tree, const Kinematics& kin, const Placed& shape,
-               const Vec3& origin_W) {
+Pose pose_from(const Tree& tree, const Kinematics& kin, const Placed& shape, const Vec3& origin_W) {
   if (shape.joint < 0) return {shape.X_JG.R, shape.X_JG.p - origin_W};
   const JointMotion& m = kin.joint[shape.joint];
   const Vec3 shift = reference_point(tree, kin, shape.joint) - origin_W;
@@ -68,6 +67,20 @@ bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const 
   const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin
   return is_silent(pair, pose_from(tree, kin, pair.on_a, none),
                    pose_from(tree, kin, pair.on_b, none), gap);
+}
+
+double edge_distance(const Tree& tree, const Kinematics& kin, const Pair& pair) {
+  const Placed &a = pair.on_a, &b = pair.on_b;
+  const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
+  return gap(a.shape, pose_from(tree, kin, a, origin), b.shape, pose_from(tree, kin, b, origin))
+      .phi;
+}
+
+void put_plane_on_b(const Tree& tree, const Kinematics& kin, const Vec3& p_W, const Vec3& n_W,
+                    Pair& pair) {
+  const Pose X_WJ = kin.X_WJ(tree, pair.on_b.joint);
+  pair.on_b.shape = HalfSpace{};
+  pair.on_b.X_JG = {rotation_z_to(X_WJ.R.transpose() * n_W), X_WJ.R.transpose() * (p_W - X_WJ.p)};
 }
 
 void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,

@@ -42,8 +42,9 @@ PartOfShape corner_of(const Cylinder& cylinder, int k) {
   const double angle = (k % 4) * std::numbers::pi / 2;
   std::string name(1, sign_name(z));
   name.append(std::to_string(90 * (k % 4)));
-  return point(name, 0, {cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
-                         z * cylinder.half_length});
+  return point(name, 0,
+               {cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+                z * cylinder.half_length});
 }
 
 PartOfShape edge_of(const Box& box, int k) {

@@ -9,11 +9,11 @@ namespace saltus {
 
 /// A part of a shape, in the shape's frame.
 struct PartOfShape {
-  std::string name;           ///< "" for all of it
+  std::string name;  ///< "" for all of it
   Shape shape;
-  Pose X_GP;                  ///< its frame
-  Vec3 out = Vec3::Zero();    ///< of an edge of a solid: out of the shape, in the part's frame
-  std::vector<Vec3> inward;   ///< of a corner: along the edges that meet in it
+  Pose X_GP;                 ///< its frame
+  Vec3 out = Vec3::Zero();   ///< of an edge of a solid: out of the shape, in the part's frame
+  std::vector<Vec3> inward;  ///< of a corner: along the edges that meet in it
 };
 
 /// Box 8, capsule 2, convex as many as it has vertices, cylinder 8; the others have none.

@@ -22,8 +22,8 @@ constexpr double parallel = 1e-6;
 /// box. Faces that lie on one another may be this far from parallel [rad].
 constexpr double least_cosine = 0.70710678118654752 - 1e-3;
 
-/// [pair.touch] Edges that are farther on the wrong side of each other, by a hundredth of the smaller
-/// shape, are on the far sides of both.
+/// [pair.touch] Edges that are farther on the wrong side of each other, by a hundredth of the
+/// smaller shape, are on the far sides of both.
 constexpr double deepest = 1e8;
 
 /// Part of an edge next to its ends that is left to the corners.

@@ -41,7 +41,8 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) {
     s.r += c.lambda * c.n;
-    s.scale += std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
+    s.scale +=
+        std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
   }
   if (!s.r.allFinite()) return std::numeric_limits<double>::infinity();
   if (s.r.size() == 0) return 0;
@@ -61,8 +62,8 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
                   ArcScratch& s) {
   c.row.setZero();
   if (c.kind == ArcConstraint::Kind::hold) {
-    const Gap g = pair_gap_at_end(model, *c.pair, s);
-    add_gap_gradient(model.tree, s.kin_end, *c.pair, g, c.row);
+    const Gap g = pair_gap_at_end(model, c.watched(), s);
+    add_gap_gradient(model.tree, s.kin_end, c.watched(), g, c.row);
     return (g.phi - c.target) / a.tau;
   }
   // dE_d/dv = L_vv v + tau/2 (L_vq^T v - L_q); w has v as its rates, and L_vv v = L_v
@@ -105,7 +106,7 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
   place_end(model, s.x, s);
   for (const ArcConstraint& c : a.constraints) {
     if (c.kind == ArcConstraint::Kind::hold) {
-      const double phi = pair_gap_at_end(model, *c.pair, s).phi;
+      const double phi = pair_gap_at_end(model, c.watched(), s).phi;
       // 1e-12: a hundredth of pair.touch is closed
       size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);
     } else {

@@ -7,8 +7,8 @@ namespace saltus {
 namespace {
 
 /// phi at the end of the arc (q, v, tau); its gradient in `n`.
-double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v,
-                  const Pair& pair, ArcScratch& s, VecX& n) {
+double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v, const Pair& pair,
+                  ArcScratch& s, VecX& n) {
   s.x = a.q + a.tau * v;
   place_end(model, s.x, s);
   const Gap gap = pair_gap_at_end(model, pair, s);

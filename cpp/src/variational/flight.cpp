@@ -17,13 +17,30 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, d
   return c;
 }
 
+/// A sharp corner that slides over the border of a face has no normal there: it is held in the
+/// plane of the face, and at the next node it is beside it and free.
+void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pair,
+                  const Node& node, ArcConstraint& c) {
+  c.face.kind = PairKind::whole;
+  c.face.on_a = pair.on_a;
+  c.face.on_b.joint = pair.on_b.joint;
+  c.face.chain = pair.chain;  // no allocation: room for the deepest is reserved
+  c.face.touch = pair.touch;
+  put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
+}
+
 /// Holds a resting pair closed from now on; its gap is brought to exactly 0.
-bool hold(int pair, Node& node, Flight& f) {
+bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   if (f.active == most_constraints) return false;
+  const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
   c.pair = &node.pool[pair];
+  c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
+  if (c.in_face) {
+    hold_in_face(model, contact, *c.pair, node, c);
+  }
   c.n.setZero();
-  add(node.trees, 1, node.contacts[node.contact_of[pair]].n, c.n);
+  add(node.trees, 1, contact.n, c.n);
   node.held[pair] = 1;
   return true;
 }
@@ -34,13 +51,13 @@ void release(int i, Node& node, Flight& f) {
   --f.active;
 }
 
-bool start_constraints(Node& node, Flight& f) {
+bool start_constraints(const ModelData& model, Node& node, Flight& f) {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (!node.held[c.pair]) continue;
     if (c.motion != Contact::Motion::rests) {
       node.held[c.pair] = 0;
-    } else if (!hold(c.pair, node, f)) {
+    } else if (!hold(model, c.pair, node, f)) {
       return false;
     }
   }
@@ -74,7 +91,7 @@ Holds update_holds(const ModelData& model, Node& node, Flight& f) {
     placed = true;
     const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
     if (g.phi >= floor_of(node, c.pair)) continue;
-    if (!hold(c.pair, node, f)) return Holds::too_many;
+    if (!hold(model, c.pair, node, f)) return Holds::too_many;
     changed = true;
   }
   return changed ? Holds::changed : Holds::unchanged;
@@ -98,7 +115,7 @@ struct FirstHit {
 };
 
 bool is_watched(const Node& node, const Flight& f, int pair) {
-  if (f.passed[pair] || node.held[pair]) return false;
+  if (f.passed[pair] || node.held[pair] || std::isinf(node.sunk[pair])) return false;
   const int contact = node.contact_of[pair];
   return contact < 0 || node.contacts[contact].motion != Contact::Motion::rests;
 }
@@ -120,8 +137,8 @@ FirstHit first_hit(const ModelData& model, Node& node, Flight& f) {
       is_clear = solid != nullptr && is_clear_on_chord(model, *solid, node);
     }
     if (is_clear || !is_watched(node, f, pair)) continue;
-    const ChordHit hit = first_hit_on_chord(model.tree, node.pool[pair], node.q, node.dq,
-                                            floor_of(node, pair));
+    const ChordHit hit =
+        first_hit_on_chord(model.tree, node.pool[pair], node.q, node.dq, floor_of(node, pair));
     if (hit.outcome != ChordHit::Outcome::clear && hit.s < first.s) first = {pair, hit.s};
   }
   return first;
@@ -183,6 +200,7 @@ Flight::Flight(const ModelData& model)
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (ArcConstraint& c : constraints) {
+    c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
     for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n_q);
   }
 }
@@ -193,7 +211,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
   f.active = 0;
-  if (left > 0 && !start_constraints(node, f)) return FlightOutcome::too_many_contacts;
+  if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
   if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
   double tau = left;
   bool solved = true;

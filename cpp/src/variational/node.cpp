@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "variational/small_system.hpp"
 
@@ -62,10 +63,22 @@ void reset_contacts(Node& node) {
   node.silent.clear();
 }
 
-/// [m] Gaps beyond this do not close within epsilon_t h: no pair closes faster than the bodies move,
-/// and 100 times the typical speed bounds light bodies'.
+/// [m] Gaps beyond this do not close within epsilon_t h: no pair closes faster than the bodies
+/// move, and 100 times the typical speed bounds light bodies'.
 double nearly(const StepOptions& options, double speed) {
   return 100 * options.simultaneous * options.h * speed;
+}
+
+/// A pair that touches but does not face the other is no contact; from here on it may not sink.
+void note_silent(const ModelData& model, double near, int index, const Gap& g, Node& node) {
+  const Pair& pair = node.pool[index];
+  if (pair.kind == PairKind::crossing) {
+    if (edge_distance(model.tree, node.kin, pair) > near) return;
+    node.sunk[index] = -std::numeric_limits<double>::infinity();
+  } else {
+    node.sunk[index] = g.phi;
+  }
+  node.silent.push_back(index);
 }
 
 /// Adds the pair to the contacts if it touches, or would within epsilon_t h.
@@ -73,20 +86,18 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
                      Node& node) {
   const Pair& pair = node.pool[index];
   const Gap g = pair_gap(model.tree, node.kin, pair);
-  const double soon = options.simultaneous * options.h;
-  if (g.phi > pair.touch + nearly(options, speed)) return;
-  if (is_silent(model.tree, node.kin, pair, g)) {
-    if (pair.kind != PairKind::whole) return;
-    node.sunk[index] = g.phi;
-    node.silent.push_back(index);
-    return;
-  }
+  const double soon = options.simultaneous * options.h, near = pair.touch + nearly(options, speed);
+  if (pair.kind == PairKind::whole && g.phi > near) return;
+  if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
+  if (g.phi > near) return;
   Contact& c = next_in_pool(node);
   add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
   shape_row(model, node.trees, pair, c.n);
   take_from(node.trees, node.dense, c.n);
   c.pair = index;
   c.phi = g.phi;
+  c.n_W = g.n_W;
+  c.p_WB = g.p_WB;
   classify(node, speed, options.rest, c);
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
   node.contact_of[index] = node.touching++;
@@ -176,7 +187,8 @@ Node::Node(const ModelData& model)
     const double touch = 1e-10 * feature_size(shape.shape);
     if (std::isfinite(touch)) most_touch = std::max(most_touch, touch);
   }
-  const std::size_t reserved = std::min(static_cast<std::size_t>(model.pairs.size()), contacts_reserved);
+  const std::size_t reserved =
+      std::min(static_cast<std::size_t>(model.pairs.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees));
   G.start.reserve(reserved + 1);
   G.diagonal.reserve(reserved);
@@ -228,8 +240,8 @@ bool find_contacts(const ModelData& model, const StepOptions& options, Node& nod
     const int place = place_of(model, number, node);
     if (node.pool.solid(place) != solid) {  // no part is nearer than the whole
       solid = node.pool.solid(place);
-      is_near = solid == nullptr || pair_gap(model.tree, node.kin, *solid).phi <=
-                                        solid->touch + nearly(options, speed);
+      is_near = solid == nullptr ||
+                pair_gap(model.tree, node.kin, *solid).phi <= solid->touch + nearly(options, speed);
     }
     if (is_near) add_if_touching(model, options, speed, place, node);
     if (node.contact_of[place] < 0) node.held[place] = 0;

@@ -25,6 +25,7 @@ struct Contact {
   double u = 0;          ///< [m/s] gap rate
   double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
+  Vec3 n_W, p_WB;        ///< [m] normal, witness on b
   ContactVector n;       ///< phi_q
   ContactVector column;  ///< M^-1 n, written by the impact
 };
@@ -47,7 +48,8 @@ struct Node {
   PairPool pool;
   std::vector<int> contact_of;  ///< (pool) index in contacts, or -1
   std::vector<char> held;       ///< (pool) kept closed by a force in the last arc
-  std::vector<double> sunk;     ///< (pool) [m] phi of a pair that is silent here; else 0
+  std::vector<double> sunk;  ///< (pool) [m] phi of a pair that is silent here; else 0. Edges that
+                             ///< meet at their ends, which corners watch: minus infinity
   Launch launch;
 
   // scratch

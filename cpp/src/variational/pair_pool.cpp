@@ -7,7 +7,7 @@
 namespace saltus {
 namespace {
 
-constexpr int few = 50'000;     ///< some 500 bytes each
+constexpr int few = 50'000;  ///< some 500 bytes each
 constexpr int many = 1'000'000;
 
 /// The parts of two shapes are met one after the other.

@@ -131,7 +131,8 @@ void Stepper::Impl::check_overlap() const {
     // 100 touches (1e-8 of the shapes' size): what a state written with 8 digits loses
     if (c.phi >= -100 * node.pool[c.pair].touch) continue;
     if (++found <= 5) {
-      text << (found > 1 ? ", " : "") << model.pair_name(node.pool.number(c.pair)) << " by " << -c.phi << " m";
+      text << (found > 1 ? ", " : "") << model.pair_name(node.pool.number(c.pair)) << " by "
+           << -c.phi << " m";
     }
   }
   if (found == 0) return;
@@ -187,7 +188,8 @@ void Stepper::Impl::finish() {
 
 std::string Stepper::Impl::contact_list() const {
   std::vector<std::string> names;
-  for (int i = 0; i < node.touching; ++i) names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
+  for (int i = 0; i < node.touching; ++i)
+    names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
   return list_names(names);
 }
 
@@ -200,8 +202,8 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
            << " s: " << contact_list();
       break;
     case FlightOutcome::impact_not_located:
-      text << "the time after t = " << node.t << " s at which " << model.pair_name(node.pool.number(flight.closing))
-           << " closes was not found";
+      text << "the time after t = " << node.t << " s at which "
+           << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
       break;
     case FlightOutcome::no_progress:
       text << "contacts at t = " << node.t

@@ -28,9 +28,7 @@ struct Chord {
     set_configuration(scene.tree, q + s * dq, kin);
     return pair_gap(scene.tree, kin, scene.pair).phi - floor;
   }
-  ChordHit hit() const {
-    return first_hit_on_chord(scene.tree, scene.pair, q, dq, floor);
-  }
+  ChordHit hit() const { return first_hit_on_chord(scene.tree, scene.pair, q, dq, floor); }
   double bound() const { return gap_change_bound(scene.tree, scene.pair, q, dq); }
 };
 

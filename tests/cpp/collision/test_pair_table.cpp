@@ -34,7 +34,8 @@ TEST(PairTable, NumbersEveryWatchedPairOnceRowByRow) {
     std::vector<PlacedShape> shapes;
     Rules rules;
     for (int i = 0; i < n; ++i) {
-      shapes.push_back(place(random_shape(kinds[random.index(5)], random), random.index(8) - 1, {}));
+      shapes.push_back(
+          place(random_shape(kinds[random.index(5)], random), random.index(8) - 1, {}));
       rules.group.push_back(random.index(3));
     }
     for (int k = random.index(6); k > 0; --k) {

@@ -44,15 +44,15 @@ enum class PairKind {
 
 /// One gap that is watched: two shapes, or a part of one and the other.
 struct Pair {
-  int a = -1, b = -1;   ///< indices of shapes
-  int part = 0;         ///< which of the gaps of these two shapes
+  int a = -1, b = -1;  ///< indices of shapes
+  int part = 0;        ///< which of the gaps of these two shapes
   PairKind kind = PairKind::whole;
-  Placed on_a, on_b;    ///< the parts that face each other; b alone may be a half-space
+  Placed on_a, on_b;  ///< the parts that face each other; b alone may be a half-space
   Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();  ///< edges: out of the shape, in the part's
                                                     ///< frame; 0 for an axis
   std::vector<Vec3> inward;  ///< corner: along the edges that meet in it, in its frame; none where
                              ///< it is round
-  bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
+  bool skips_corners = false;     ///< corners have gaps of their own: none where one is nearest
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
 };
@@ -66,6 +66,15 @@ SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& 
 /// True where the pair is of parts that do not face each other there; see parts.hpp.
 SALTUS_EXPORT bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair,
                              const Gap& gap);
+
+/// [m] Distance of two edges with their ends, never below minus their radii. Needs a pair of edges
+/// (PairKind::crossing) and set_configuration.
+SALTUS_EXPORT double edge_distance(const Tree& tree, const Kinematics& kin, const Pair& pair);
+
+/// The plane through a point of b across n, which goes with b: as the pair's b (a half-space). For
+/// a corner that is to stay in the plane of a face, also beyond its border.
+SALTUS_EXPORT void put_plane_on_b(const Tree& tree, const Kinematics& kin, const Vec3& p_W,
+                                  const Vec3& n_W, Pair& pair);
 
 /// Adds the pair's gradient to `phi_q` (n_q), through the drives of mimic joints.
 SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,

@@ -113,7 +113,7 @@ class SALTUS_EXPORT Model {
   std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
-  std::vector<TreeSolution> solvers() const;      ///< how steps solve its trees
+  std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees
 
   /// A copy of this model without any pair: bodies pass through each other.
   Model without_collisions() const;
