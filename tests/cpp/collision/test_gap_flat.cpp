@@ -255,7 +255,9 @@ TEST(Gaps, AreSoundWhereBodiesCoincide) {
     for (unsigned seed = 1; seed <= 40; ++seed) {
       Random random(seed), same(seed), other(100);
       Placed x{testing_scene::random_shape(names.first, random),
-               testing_scene::random_shape(names.second, same), {}, {}};
+               testing_scene::random_shape(names.second, same),
+               {},
+               {}};
       if (seed % 4 == 1) x.X_WA.p = 1e-16 * random.direction();
       if (seed % 4 == 2) x.X_WA.p = 1e-9 * random.direction();
       if (seed % 4 == 3) x.X_WA.p = 0.1 * Vec3::Unit(random.index(3));
