@@ -143,8 +143,8 @@ inline Scene random_scene(const std::string& kind_a, const std::string& kind_b,
   const int joint_a = random.index(options.joints);
   int joint_b = kind_b == "half_space" ? -1 : random.index(options.joints + 1) - 1;
   if (joint_b == joint_a) joint_b = -1;
-  const Shape a = kind_a == "sphere" ? Sphere{random.uniform(0.05, 0.2)}
-                                     : random_shape(kind_a, random);
+  const Shape a =
+      kind_a == "sphere" ? Sphere{random.uniform(0.05, 0.2)} : random_shape(kind_a, random);
   scene.shapes = {place(a, joint_a, random.pose(options.offset)),
                   place(random_shape(kind_b, random), joint_b, random.pose(options.offset))};
   scene.pair = make_pair_of(scene.tree, scene.shapes, 0, 1);

@@ -61,7 +61,7 @@ class RandomChords : public ::testing::TestWithParam<Names> {};
 TEST_P(RandomChords, FirstHitIsNeitherMissedNorLateNorInvented) {
   Random random(21);
   int hits = 0, near_misses = 0, chords = 0;
-  while (chords < 200) {
+  while (chords < 300) {
     const Scene scene = random_pair(GetParam(), 1 + random.index(6), random);
     const double size = random.chance(0.2) ? 0.1 : 4;
     Chord chord{scene, scene.q, random.numbers(scene.tree.coordinates, size),
