@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
         }
       });
       if (sum == 0) std::cerr << "nothing was measured\n";
-      std::cout << (first ? "" : ", ") << "\"" << kinds[i] << "-" << kinds[j] << "\": "
-                << Time{time.least / poses, time.median / poses};
+      std::cout << (first ? "" : ", ") << "\"" << kinds[i] << "-" << kinds[j]
+                << "\": " << Time{time.least / poses, time.median / poses};
       first = false;
     }
   }
