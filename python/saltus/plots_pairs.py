@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from math import ceil, cos, pi, sin
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -42,7 +43,7 @@ TOWARDS = np.array([0.0, -cos(ELEVATION), sin(ELEVATION)])
 LIGHT = np.array([-0.45, -0.55, 0.7]) / np.linalg.norm([-0.45, -0.55, 0.7])
 AROUND, ALONG = 72, 24  # facets of round shapes
 ORANGE, BLUE, GROUND = (0.96, 0.62, 0.25), (0.42, 0.65, 0.87), (0.80, 0.83, 0.80)
-PLANE = 1.1  # [m] half the side of the square that stands for a half-space
+PLANE = 0.75  # [m] half the side of the square that stands for a half-space
 
 
 class Placed(NamedTuple):
@@ -106,6 +107,7 @@ def plot_gaps(
         draw_gap(axes, Placed(*pair))
     for axes in cells[len(pairs) :]:
         axes.set_axis_off()
+    _share_scale(cells[: len(pairs)])
     _draw_legend(cells[-1])
     return finish(figure, path)
 
@@ -122,6 +124,15 @@ def draw_gap(axes: Axes, pair: Placed) -> None:
     axes.text(0.5, 1.01, curved, transform=axes.transAxes, fontsize=7.5, ha="center", color="0.35")
     axes.set_aspect("equal", adjustable="box")
     axes.set_axis_off()
+
+
+def _share_scale(cells: Sequence[Axes]) -> None:
+    """Give all of them the scale of the largest picture."""
+    half = 0.53 * np.max([axes.dataLim.size for axes in cells], axis=0)
+    for axes in cells:
+        middle = np.asarray(axes.dataLim.get_points()).mean(axis=0)
+        (left, low), (right, high) = middle - half, middle + half
+        axes.set(xlim=(left, right), ylim=(low, high))
 
 
 def _draw_normal(axes: Axes, start: Array, end: Array) -> None:
@@ -158,8 +169,8 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
     )
     if isinstance(shape, Cylinder):
         caps = [p for p in polygons if len(p) == AROUND]
-        style = {"facecolors": "none", "edgecolors": "0.25", "linewidths": 0.6, "zorder": 2}
-        axes.add_collection(PolyCollection(caps, **style))
+        rims = PolyCollection(caps, facecolors="none", edgecolors="0.25", linewidths=0.6, zorder=2)
+        axes.add_collection(rims)
     axes.autoscale_view()
 
 
@@ -183,7 +194,7 @@ def _revolved(profile: Sequence[tuple[float, float]]) -> Facets:
     ]
     rings = [
         np.array([low[i], low[i - AROUND + 1], high[i - AROUND + 1], high[i]])
-        for low, high in zip(circles, circles[1:], strict=False)
+        for low, high in pairwise(circles)
         for i in range(AROUND)
     ]
     return [*rings, circles[0][::-1], circles[-1]]

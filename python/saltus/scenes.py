@@ -211,11 +211,9 @@ def _pin(x: float, z: float, pitch: float) -> str:
 """
 
 
-def _slider(
-    i: int, axes: str, at: tuple[float, float, float], radius: float, mass: float
-) -> str:
+def _slider(i: int, axes: str, at: tuple[float, float, float], radius: float, mass: float) -> str:
     """Return a ball on two slides, the first named axis at the root."""
-    first, second = axes
+    first, second = axes[0], axes[1]
     unit = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
     root = "table" if axes == "xy" else "board"
     return f"""\
