@@ -14,10 +14,10 @@ GEM = [(0.5, 0.1, 0.1), (-0.2, 0.45, 0.15), (-0.35, -0.4, 0.1), (0.1, 0.1, 0.6),
 # where it is the lower.
 SHAPES = {
     "sphere": (saltus.Sphere(0.45), (0, 0, 0), (0, 0, 0)),
-    "capsule": (saltus.Capsule(0.25, 0.45), (0.3, 0.9, 0), (1.2, 0, 0.9)),
+    "capsule": (saltus.Capsule(0.25, 0.45), (0.3, 0.9, 0), (1.5, 0, 0.9)),
     "ellipsoid": (saltus.Ellipsoid((0.65, 0.4, 0.28)), (0.2, 0.7, 0.2), (0, -0.3, 0.4)),
     "convex": (saltus.Convex(GEM), (0, 0.2, 0.5), (0.2, -0.2, 0.3)),
-    "cylinder": (saltus.Cylinder(0.35, 0.4), (0.4, 0.7, 0), (1.3, 0, 0.9)),
+    "cylinder": (saltus.Cylinder(0.35, 0.4), (0.4, 0.7, 0), (1.5, 0, 0.9)),
     "box": (saltus.Box((0.45, 0.35, 0.3)), (0.5, 0.6, 0.4), (0, 0.1, 0.6)),
     "half_space": (saltus.HalfSpace(), (0, 0, 0), (0, 0, 0.5)),
 }
@@ -28,7 +28,7 @@ for kinds in sorted((sorted(row, key=KINDS.index) for row in saltus.gap_table())
     (a, turned, _), (b, _, lies) = (SHAPES[kind] for kind in kinds)
     X_WB = saltus.Pose((0, 0, 0), saltus.rotation_from_rpy(*lies))
     R = saltus.rotation_from_rpy(*turned)
-    above = saltus.Pose((0.2, -0.2, 2.5), R)
+    above = saltus.Pose((0.05, 0.1, 2.5), R)
     gap = saltus.gap(a, above, b, X_WB)
     near = saltus.Pose(above.p + (0.4 - gap.phi) * gap.n_W, R)
     pairs.append((a, near, b, X_WB))

@@ -37,11 +37,10 @@ Shape: TypeAlias = Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | C
 Facets: TypeAlias = list[Array]  # corners, (k, 3), counterclockwise seen from outside
 
 ELEVATION = 0.35  # [rad] the viewer looks along +y, from this much above
-RIGHT = np.array([1.0, 0.0, 0.0])
-UP = np.array([0.0, sin(ELEVATION), cos(ELEVATION)])
+ACROSS = np.array([[1, 0, 0], [0, sin(ELEVATION), cos(ELEVATION)]])  # right and up of the picture
 TOWARDS = np.array([0.0, -cos(ELEVATION), sin(ELEVATION)])
 LIGHT = np.array([-0.45, -0.55, 0.7]) / np.linalg.norm([-0.45, -0.55, 0.7])
-AROUND, ALONG = 72, 24  # facets of round shapes
+AROUND, ALONG = 60, 18  # facets of round shapes
 ORANGE, BLUE, GROUND = (0.96, 0.62, 0.25), (0.42, 0.65, 0.87), (0.80, 0.83, 0.80)
 PLANE = 0.75  # [m] half the side of the square that stands for a half-space
 
@@ -119,7 +118,7 @@ def draw_gap(axes: Axes, pair: Placed) -> None:
     _draw_shape(axes, pair.a, pair.X_WA, ORANGE)
     _draw_normal(axes, _project(found.p_WB), _project(found.p_WA))
     small, *_, large = sorted(np.abs(np.linalg.eigvalsh(found.F_W)))[-2:]
-    curved = f"{small + 0.0:.2f}, {large + 0.0:.2f} /m"
+    curved = f"{round(small, 2):g}, {round(large, 2):g} /m"
     axes.set_title(f"{shape_name(pair.a)} ~ {shape_name(pair.b)}", fontsize=9, pad=12)
     axes.text(0.5, 1.01, curved, transform=axes.transAxes, fontsize=7.5, ha="center", color="0.35")
     axes.set_aspect("equal", adjustable="box")
@@ -157,9 +156,9 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
 
     flat = isinstance(shape, HalfSpace)
     facets = [corners @ X.R.T + X.p for corners in FACETS[type(shape)](shape)]
-    outward = [_normal(corners) for corners in facets]
-    seen = [k for k, n in enumerate(outward) if n @ TOWARDS > 1e-9]
-    light = np.array([0.62 + 0.38 * max(0.0, float(outward[k] @ LIGHT)) for k in seen])
+    outward = _normals(facets)
+    (seen,) = np.nonzero(outward @ TOWARDS > 1e-9)
+    light = 0.62 + 0.38 * np.maximum(0, outward[seen] @ LIGHT)
     colours = np.clip(light[:, None] * (GROUND if flat else colour), 0, 1)
     edged = isinstance(shape, Box | Convex | HalfSpace)
     polygons = [_project(facets[k]) for k in seen]
@@ -175,14 +174,18 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
 
 
 def _project(points: npt.ArrayLike) -> Array:
-    return np.stack([np.asarray(points) @ RIGHT, np.asarray(points) @ UP], axis=-1)
+    return np.asarray(points) @ ACROSS.T
 
 
-def _normal(corners: Array) -> Array:
-    """Return the unit normal of a plane polygon, by Newell's sum."""
-    n = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
-    length = np.linalg.norm(n)
-    return np.asarray(n / length if length > 0 else n)
+def _normals(facets: Facets) -> Array:
+    """Return the unit normals of plane polygons by Newell's sum, 0 where the area is; (m, 3)."""
+    out = np.empty((len(facets), 3))
+    for size in {len(corners) for corners in facets}:
+        rows = [k for k, corners in enumerate(facets) if len(corners) == size]
+        corners = np.stack([facets[k] for k in rows])
+        out[rows] = np.cross(corners, np.roll(corners, -1, axis=1)).sum(axis=1)
+    length = np.linalg.norm(out, axis=1, keepdims=True)
+    return np.asarray(out / np.where(length > 0, length, 1))
 
 
 def _revolved(profile: Sequence[tuple[float, float]]) -> Facets:

@@ -13,12 +13,12 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 PREDICTED = {
     "billiard_break": [
-        "impacts, the first at 0.102870 s",
+        "1 impact, at 0.102870 s: 31 contacts",
         "momentum at the end 0.850000 kg m/s along, 0.000000 across",
         "energy at the end 2.125000 J",
     ],
     "bouncing_ball": ["11 impacts, the last at 9.481996 s"],
-    "box_on_edge": ["first impact at 0.319275 s: box[++-] ~ floor, box[+--] ~ floor"],
+    "box_on_edge": ["first impact at 0.319275 s, contacts 2: box[+"],
     "cradle_counts": [
         "3 balls, 1 up: 1 left, 2 still, 2 impulses",
         "3 balls, 2 up: 2 left, 1 still, 2 impulses",

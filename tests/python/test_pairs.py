@@ -127,7 +127,7 @@ def test_facets_close_and_look_outwards(kind):
     from saltus import plots_pairs
 
     facets = plots_pairs.FACETS[type(SHAPES[kind])](SHAPES[kind])
-    normals = [plots_pairs._normal(corners) for corners in facets]
+    normals = plots_pairs._normals(facets)
     for corners, n in zip(facets, normals, strict=True):
         assert n @ corners.mean(axis=0) > 0 or not n.any()
     # area vectors of a closed surface add up to 0
