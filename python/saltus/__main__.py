@@ -121,7 +121,12 @@ def _add_info(commands_of: Commands[Parser]) -> None:
         "trees are solved.",
     )
     parser.add_argument("file", metavar="FILE", help="URDF file")
-    parser.add_argument("--pairs", action="store_true", help="print the name of every pair")
+    parser.add_argument(
+        "--pairs", action="store_true", help="print every pair, and how many gaps it has"
+    )
+    parser.add_argument(
+        "--gaps", action="store_true", help="print the name of every gap: pairs by their parts"
+    )
     _add_loading(parser)
     parser.set_defaults(command=commands.info)
 

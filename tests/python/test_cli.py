@@ -77,13 +77,27 @@ def test_info(tmp_path):
     )
     assert "Sphere(0.05)" in done.stdout
     kinds = [line.split() for line in done.stdout.splitlines() if "sphere ~ sphere" in line]
-    assert kinds == [["sphere", "~", "sphere", "3"]]
+    assert kinds == [["sphere", "~", "sphere", "3", "3"]]
     assert "ball_0 ~ ball_2" not in done.stdout
     assert "ball_0 ~ ball_2" in run_cli("info", CRADLE, "--pairs").stdout
     chain = tmp_path / "chain.urdf"
     chain.write_text(chain_on_a_body())
     assert "shapes: none" in run_cli("info", chain).stdout
     assert "root_x" in run_cli("info", chain, "--floating").stdout
+
+
+def test_info_tells_pairs_of_shapes_from_the_gaps_of_their_parts():
+    box = saltus.urdf_dir() / "box_on_edge.urdf"
+    plain = run_cli("info", box).stdout
+    assert "1 shapes" not in plain
+    assert "2 shapes, 1 pairs with 8 gaps, 3 kg" in plain
+    pairs = run_cli("info", box, "--pairs").stdout.split("\npairs\n")[1].splitlines()
+    assert [line.split("  ") for line in pairs[1:]] == [
+        ["", "box ~ floor", "box ~ half_space", "8"]
+    ]
+    gaps = run_cli("info", box, "--gaps").stdout.split("\ngaps\n")[1].split("\n  ")
+    assert "box[+-+] ~ floor" in gaps
+    assert len(gaps) == 1 + 8
 
 
 def test_warnings_of_a_model_are_one_line_each(tmp_path):

@@ -12,7 +12,13 @@ from tests.conftest import ROOT
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 PREDICTED = {
+    "billiard_break": [
+        "1 impact, at 0.102870 s: 31 contacts",
+        "momentum at the end 0.850000 kg m/s along, 0.000000 across",
+        "energy at the end 2.125000 J",
+    ],
     "bouncing_ball": ["11 impacts, the last at 9.481996 s"],
+    "box_on_edge": ["first impact at 0.319275 s, contacts 2: box[+"],
     "cradle_counts": [
         "3 balls, 1 up: 1 left, 2 still, 2 impulses",
         "3 balls, 2 up: 2 left, 1 still, 2 impulses",
@@ -20,8 +26,13 @@ PREDICTED = {
         "5 balls, 2 up: 2 left, 3 still, 6 impulses",
         "5 balls, 3 up: 3 left, 2 still, 6 impulses",
     ],
+    "cradle_of_thousand": ["at 0.5046 s 999 impulses of 0.9366 N s"],
     "derivatives": ["L_vv[1, 1] = 1.001 kg m^2"],
     "fig3": ["the right ball reaches 0.9356 m/s"],
+    "galton_board": [
+        "1010 pairs: 5 balls with 200 pins and 2 walls each",
+        "5 balls below the pins",
+    ],
     "hello_cradle": ["first impact at 0.50460 s"],
     "hundred_pendulums": ["100 periods, greatest difference from theory 3e-06 s"],
     "impulses_at_one_instant": [
@@ -32,9 +43,11 @@ PREDICTED = {
         'names child link "wieght", which does not exist; links are shaft, weight',
         "height after 1 s: -4.905000 m",
     ],
+    "pairs": ["27 pairs 0.4 m apart, to 1e-14 m"],
+    "quadruped": ["contacts held: 8"],
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }
-WRITTEN = {"fig3": ["fig3.png"]}
+WRITTEN = {"fig3": ["fig3.png"], "pairs": ["pairs.png"]}
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
