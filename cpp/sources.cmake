@@ -65,6 +65,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/closing_arc.cpp
+  cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
   cpp/src/variational/flight.cpp
   cpp/src/variational/impact_time.cpp

@@ -58,6 +58,34 @@ Returns
 BodyInertia
 )";
 
+constexpr auto solid_box_doc = R"(Inertia of a homogeneous box about its centre.
+
+Parameters
+----------
+mass : float
+    [kg]
+half : array_like, shape (3,)
+    [m] half-extents, as of `Box`.
+
+Returns
+-------
+BodyInertia
+)";
+
+constexpr auto solid_cylinder_doc = R"(Inertia of a homogeneous cylinder along z about its centre.
+
+Parameters
+----------
+mass : float
+    [kg]
+radius, half_length : float
+    [m] as of `Cylinder`.
+
+Returns
+-------
+BodyInertia
+)";
+
 std::string show(const BodyInertia& body) {
   const py::object c = py::cast(body.c_J), I = py::cast(body.I_J);
   return "BodyInertia(mass=" + py::repr(py::float_(body.mass)).cast<std::string>() +
@@ -81,6 +109,9 @@ void bind_inertia(py::module_& m) {
           py::arg("X_PB"), "The same body in frame P, where this one is given in frame B.")
       .def("__add__", &weld, py::arg("other"), py::is_operator())
       .def("__repr__", &show);
+  m.def("solid_box", &solid_box, solid_box_doc, py::arg("mass"), py::arg("half"));
+  m.def("solid_cylinder", &solid_cylinder, solid_cylinder_doc, py::arg("mass"), py::arg("radius"),
+        py::arg("half_length"));
   m.def("solid_sphere", &solid_sphere, solid_sphere_doc, py::arg("mass"), py::arg("radius"));
 }
 

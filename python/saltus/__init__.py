@@ -62,6 +62,8 @@ from saltus._core import (
     resolve_impact,
     rotation_from_rpy,
     shape_name,
+    solid_box,
+    solid_cylinder,
     solid_sphere,
 )
 from saltus.batch import simulate_batch
@@ -131,6 +133,8 @@ __all__ = [
     "shape_name",
     "simulate",
     "simulate_batch",
+    "solid_box",
+    "solid_cylinder",
     "solid_sphere",
     "urdf_dir",
 ]

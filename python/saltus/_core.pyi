@@ -63,6 +63,8 @@ __all__: list[str] = [
     "shape_name",
     "simulate",
     "simulate_batch",
+    "solid_box",
+    "solid_cylinder",
     "solid_sphere",
     "states",
 ]
@@ -437,7 +439,7 @@ class PlacedShape:
 
 class Pair:
     """
-    Two shapes of a model whose gap is watched.
+    A gap that is watched, of two shapes of a model or of parts of them.
     """
     def __repr__(self) -> str: ...
     @property
@@ -449,6 +451,11 @@ class Pair:
     def b(self) -> int:
         """
         index in the model's `shapes`
+        """
+    @property
+    def part(self) -> int:
+        """
+        which of the gaps of these two shapes
         """
     @property
     def touch(self) -> float:
@@ -754,6 +761,18 @@ class Model:
         -------
         numpy.ndarray, shape (n, n)
         """
+    def pair(self, pair: typing.SupportsInt | typing.SupportsIndex) -> Pair:
+        """
+        The pair of this number, from 0 to `n_pairs` - 1.
+        """
+    def pair_kinds(self) -> dict[tuple[str, str], int]:
+        """
+        How many pairs there are of each two kinds of shape, by their names in alphabetical order.
+        """
+    def pair_name(self, pair: typing.SupportsInt | typing.SupportsIndex) -> str:
+        """
+        Its name.
+        """
     def pose(
         self,
         q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
@@ -903,6 +922,11 @@ class Model:
     @property
     def links(self) -> list[Link]: ...
     @property
+    def n_pairs(self) -> int:
+        """
+        number of pairs
+        """
+    @property
     def n_q(self) -> int:
         """
         number of coordinates, n elsewhere
@@ -912,10 +936,13 @@ class Model:
     @property
     def pair_names(self) -> list[str]:
         """
-        "a ~ b" of every pair
+        "a ~ b" of every pair, "a[part] ~ b" where shapes have several
         """
     @property
-    def pairs(self) -> list[Pair]: ...
+    def pairs(self) -> list[Pair]:
+        """
+        a list of the pairs; at most 10^6 of them
+        """
     @property
     def shapes(self) -> list[PlacedShape]: ...
     @property
@@ -1842,6 +1869,45 @@ def simulate_batch(
         Before anything runs, on numbers that make no run.
     StepError, JammedError, ModelError
         With OnFailure.stop, the error of the first run, by index, that fails.
+    """
+
+def solid_box(
+    mass: typing.SupportsFloat | typing.SupportsIndex,
+    half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+) -> BodyInertia:
+    """
+    Inertia of a homogeneous box about its centre.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    half : array_like, shape (3,)
+        [m] half-extents, as of `Box`.
+
+    Returns
+    -------
+    BodyInertia
+    """
+
+def solid_cylinder(
+    mass: typing.SupportsFloat | typing.SupportsIndex,
+    radius: typing.SupportsFloat | typing.SupportsIndex,
+    half_length: typing.SupportsFloat | typing.SupportsIndex,
+) -> BodyInertia:
+    """
+    Inertia of a homogeneous cylinder along z about its centre.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    radius, half_length : float
+        [m] as of `Cylinder`.
+
+    Returns
+    -------
+    BodyInertia
     """
 
 def solid_sphere(

@@ -6,11 +6,17 @@ import argparse
 import json
 from pathlib import Path
 
-from tests.bench import batch, cradle, flops, page, peers, scenes, table, trep
+from tests.bench import batch, collisions, cradle, flops, page, peers, scenes, table, trep
 from tests.bench.kernels import Programs, machine, versions
 
 # Pinocchio's headers take half a minute to compile.
-QUICK_PROGRAMS = ("bench_kernels", "bench_impacts", "bench_peaks", "bench_scaling")
+QUICK_PROGRAMS = (
+    "bench_collision",
+    "bench_kernels",
+    "bench_impacts",
+    "bench_peaks",
+    "bench_scaling",
+)
 
 
 def chosen_scenes(quick: bool) -> tuple[list[scenes.Scene], list[str]]:
@@ -74,6 +80,9 @@ def measure(quick: bool, seconds: float, rounds: int) -> dict:
         "rows": rows,
         "growth": flops.growth(rows),
         "impacts": impacts,
+        "collisions": collisions.measure(
+            programs, seconds=0.002 if quick else seconds / 4, balls=10 if quick else 1000
+        ),
         "batch": batch.measure(
             programs.path("bench_scaling"),
             runs=20 if quick else 1000,
@@ -99,7 +108,7 @@ def main() -> None:
         results = measure(quick=True, seconds=0.002, rounds=1)
     else:
         results = measure(quick=False, seconds=arguments.seconds, rounds=arguments.rounds)
-    print(table.markdown(results))
+    print(table.markdown(results) + "\n\n" + collisions.markdown(results["collisions"]))
     text = json.dumps(results, indent=1)
     if arguments.json:
         arguments.json.write_text(text)

@@ -45,6 +45,7 @@ class Programs:
         only = ["--target", *targets] if targets else []
         self._call(tool("cmake"), "--build", BUILD, *only)
         self.has_pinocchio = (BUILD / "bench_pinocchio").exists()
+        self.has_coal = (BUILD / "bench_coal").exists()
 
     @staticmethod
     def path(program: str) -> Path:
@@ -78,6 +79,17 @@ class Programs:
         """Return rows of what steps with impacts cost, one a step length."""
         rows = self._run("bench_impacts", scene, 0)
         return [{"model": scene.name, **row} for row in rows]
+
+    def collision(self, cradle: str, seconds: float) -> dict:
+        """Return the times of gaps, broad phase and a long cradle, of its URDF text."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "cradle.urdf"
+            file.write_text(cradle)
+            return json.loads(self._call(BUILD / "bench_collision", seconds, file))
+
+    def coal(self, seconds: float) -> dict:
+        """Return the times of Coal's distances by pair, none where it is absent."""
+        return json.loads(self._call(BUILD / "bench_coal", seconds)) if self.has_coal else {}
 
     def peaks(self, seconds: float) -> dict:
         return json.loads(self._call(BUILD / "bench_peaks", seconds))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.bench import picture, table
+from tests.bench import collisions, picture, table
 
 PAGE = """\
 # Speed
@@ -50,6 +50,10 @@ has an energy error of 0, and its middle ball rests.
 
 {emblem}
 
+## Collisions
+
+{collisions}
+
 ## Batches
 
 `simulate_batch` over threads, beside what a second thread is worth at all on this machine: a loop
@@ -75,6 +79,7 @@ def markdown(results: dict, image: str | None) -> str:
         ratios=table.ratios(results),
         growth=table.growth(results["growth"]) or "(not measured)",
         impacts=table.impacts(results["impacts"]),
+        collisions=collisions.markdown(results["collisions"]),
         batch=table.batch(results["batch"]) or "(not measured)",
         emblem=table.emblem(results["emblem"]),
         times=table.times(results["rows"]),

@@ -62,8 +62,9 @@ def shapes(kind, random):
         return saltus.Ellipsoid(radii), coal.Ellipsoid(*radii), lambda n: np.linalg.norm(radii * n)
     if kind == "convex":
         count = int(random.integers(4, 40))
-        points = [np.array([a, b, c]) * x / np.linalg.norm(x) for x in random.normal(size=(count, 3))]
-        return saltus.Convex(points), convex_of(points), lambda n: max(n @ p for p in points)
+        x = random.normal(size=(count, 3))
+        points = np.array([a, b, c]) * x / np.linalg.norm(x, axis=1, keepdims=True)
+        return saltus.Convex(points), convex_of(points), lambda n: np.max(points @ n)
     return saltus.HalfSpace(), coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0), lambda n: 0.0
 
 
@@ -80,7 +81,6 @@ def test_signed_distance(pair):
         pytest.skip("no ellipsoids in Python yet")
     random = np.random.default_rng(1)
     request = coal.DistanceRequest()
-    request.enable_nearest_points = True
     request.enable_signed_distance = True
     request.gjk_tolerance = request.epa_tolerance = TOLERANCE
     request.gjk_max_iterations = request.epa_max_iterations = 1000

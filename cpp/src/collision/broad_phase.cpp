@@ -60,17 +60,16 @@ void bound_joints(const Tree& tree, const Kinematics& kin, const VecRef& dq, Bro
   }
 }
 
-void place_balls(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
-                 const VecRef& dq, double margin, BroadPhase& bp) {
+void place_balls(const Tree& tree, const Kinematics& kin, const VecRef& dq, double margin,
+                 BroadPhase& bp) {
   for (const int i : bp.order) {
-    const PlacedShape& shape = shapes[i];
-    const int j = shape.joint;
-    const Pose X_WJ = kin.X_WJ(tree, j);
-    const Vec3 c_W = X_WJ.R * shape.X_JG.p;
-    bp.center[i] = X_WJ.p + c_W;
+    const BroadPhase::Ball& ball = bp.ball[i];
+    const int j = ball.joint;
+    const Vec3 c_W = j < 0 ? ball.p_JG : Vec3(kin.joint[j].R * ball.p_JG);
+    bp.center[i] = j < 0 ? c_W : Vec3(kin.origin[tree.root[j]] + kin.joint[j].p + c_W);
     const double motion = j < 0 ? 0 : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W);
     // half the margin a ball: margin a pair
-    const double radius = bp.size[i] + motion + margin / 2;
+    const double radius = ball.size + motion + margin / 2;
     bp.reach[i] = radius + rounding * (bp.center[i].cwiseAbs().maxCoeff() + radius);
     if (!std::isfinite(bp.center[i].sum() + bp.reach[i])) {  // q or dq is not: met by all
       bp.center[i].setZero();
@@ -168,15 +167,14 @@ void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes,
 
 BroadPhase::BroadPhase(const Tree& model_tree, const std::vector<PlacedShape>& shapes,
                        const PairTable& pairs)
-    : size(shapes.size()),
-      center(shapes.size()),
+    : center(shapes.size()),
       reach(shapes.size()),
       lower(shapes.size()),
       moved(model_tree.parent.size()),
       turned(model_tree.parent.size()) {
   candidates.reserve(std::min(static_cast<std::size_t>(pairs.size()), most_reserved));
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
-    size[i] = bounding_radius(shapes[i].shape);
+    ball.push_back({shapes[i].joint, shapes[i].X_JG.p, bounding_radius(shapes[i].shape)});
     if (pairs.is_used(i)) (is_unbounded(shapes[i]) ? unbounded : order).push_back(i);
   }
   reserve(order.size(), tree);
@@ -187,7 +185,7 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
                      BroadPhase& bp) {
   bp.candidates.clear();
   bound_joints(tree, kin, dq, bp);
-  place_balls(tree, shapes, kin, dq, margin, bp);
+  place_balls(tree, kin, dq, margin, bp);
   meet_bounded(pairs, bp);
   meet_unbounded(tree, shapes, pairs, kin, margin, bp);
   std::sort(bp.candidates.begin(), bp.candidates.end());

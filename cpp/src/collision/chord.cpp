@@ -34,6 +34,13 @@ constexpr double rounding = 16 * epsilon;
 /// distance g need (C/6g)^(1/3): 400 is g = 3e-9 C, below what a gap is known to.
 constexpr int max_iterations = 400;
 
+/// Where a body that touches departs at its witness, but another point of it comes down at once, no
+/// advance longer than this is certain: that is a hit too.
+constexpr double sideways = 1e-9;
+
+/// Of a body that overlaps and departs nothing is promised but an end: this much at a time.
+constexpr double stride = 1.0 / 64;
+
 /// First root of g + rate d - B d^2/2, for g, B >= 0, without cancellation.
 double quadratic_advance(double g, double rate, double B) {
   const double root = std::sqrt(rate * rate + 2 * B * g);
@@ -138,7 +145,11 @@ ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q,
     if (!std::isfinite(g) || !std::isfinite(x.rate)) break;
     const bool touches = g <= rounding * bounds.length, departs = x.rate > rounding * bounds.mu;
     if (touches && !departs) return {Outcome::hit, s};
-    s += std::fmax(certified_advance(chord, g, x, bounds, 1 - s), epsilon);  // s is known no better
+    double d = certified_advance(chord, g, x, bounds, 1 - s);
+    const bool overlaps = g < -rounding * bounds.length;
+    if (overlaps) d = std::fmax(d, stride);
+    if (touches && d < sideways && !chord.a_is_ball()) return {Outcome::hit, s};
+    s += std::fmax(d, epsilon);  // s is known no better
     if (s >= 1) return {Outcome::clear, 1};
   }
   return {Outcome::not_converged, s};

@@ -131,6 +131,7 @@ void offer_crossings(const Flat& f, const Flat& g, const Vec3& n, bool turned, S
         const double s = -e.dot(c) + sign * std::sqrt(std::max(square, 0.0));
         const Vec3 x = from + s * e, y = x - n.dot(c) * n;
         const double past = std::max({-s, s - long_f, square > 0 ? 0.0 : g.radius});
+        if (past > shared.tolerance) continue;
         offer(outline_feature(f, from, to, x), rim_at(*g.solid, y), past);
       }
       continue;
@@ -145,6 +146,7 @@ void offer_crossings(const Flat& f, const Flat& g, const Vec3& n, bool turned, S
       const double s = (at - from).cross(k).dot(n) / sine;
       const double t = (at - from).cross(e).dot(n) / sine;
       const double past = std::max({-s, s - long_f, -t, t - long_g});
+      if (past > shared.tolerance) continue;
       const Vec3 x = from + s * e, y = at + t * k;
       offer(outline_feature(f, from, to, x), outline_feature(g, at, end, y), past);
     }

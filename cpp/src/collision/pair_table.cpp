@@ -40,6 +40,10 @@ PairTable::PairTable(const std::vector<PlacedShape>& shapes, const PairRules& ru
     excluded_[a].push_back(b);
     missing[b] += parts;
   }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::vector<Members>& on = on_[body_[i]];
+    plain_.push_back(excluded_[i].empty() && on.size() == 1 && on[0].shape.size() == 1);
+  }
   row_.assign(1, 0);
   for (int i = 0; i < static_cast<int>(n); ++i) {
     row_.push_back(row_.back() + row_before(i, static_cast<int>(n)));
@@ -95,6 +99,7 @@ PairTable::Count PairTable::row_between(int i, int from, int to) const {
   for (int t = 0; t < classes(); ++t) {
     sum += static_cast<Count>(parts[t]) * (before_[t][to] - before_[t][from + 1]);
   }
+  if (plain_[i] != 0) return sum;  // most often: spares a look at three lists
   for (const Members& members : on_[body_[i]]) {
     const Count each = parts[members.kind];
     if (each > 0) sum -= each * count_between(members.shape, from, to);
@@ -104,6 +109,7 @@ PairTable::Count PairTable::row_between(int i, int from, int to) const {
 
 PairTable::Count PairTable::row_before(int i, int j) const {
   Count sum = row_between(i, i, j);
+  if (plain_[i] != 0) return sum;
   for (const int other : excluded_[i]) {
     if (other >= j) break;
     sum -= parts_[class_[i]][class_[other]];
@@ -115,6 +121,7 @@ int PairTable::count(int a, int b) const {
   const auto [i, j] = std::minmax(a, b);
   const int parts = parts_[class_[i]][class_[j]];
   if (parts == 0 || body_[i] == body_[j]) return 0;
+  if (plain_[i] != 0) return parts;
   const std::vector<int>& excluded = excluded_[i];
   if (!excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), j)) return 0;
   return parts;

@@ -57,9 +57,6 @@ void nearby_cylinder(const Solid& s, const Vec3& d, double width, Nearby& out) {
 void nearby_hull(const Solid& s, const Vec3& d, double width, Nearby& out) {
   const Hull& hull = *s.hull;
   const double cosine = 1 - 0.5 * width * width;
-  for (const Hull::Face& face : hull.faces) {
-    if (face.normal.dot(d) > cosine) out.add_face(s.R * face.normal);
-  }
   support(s, s.R * d);
   const auto row = static_cast<std::size_t>(s.hint);
   const Vec3 from = s.p + s.R * hull.vertices[row];
@@ -71,6 +68,18 @@ void nearby_hull(const Solid& s, const Vec3& d, double width, Nearby& out) {
     if (std::abs(e.dot(d)) > width * e.norm()) continue;
     out.add(edge_between(from, s.p + s.R * v));
     out.add(vertex_at(s.p + s.R * v));
+  }
+  for (const Hull::Face& face : hull.faces) {
+    if (face.normal.dot(d) <= cosine) continue;
+    out.add_face(s.R * face.normal);
+    const std::size_t count = face.corners.size();
+    for (std::size_t k = 0; k < count; ++k) {  // its edges away from that vertex
+      const int i = face.corners[k], j = face.corners[(k + 1) % count];
+      if (i == s.hint || j == s.hint) continue;
+      const Vec3 x = s.p + s.R * hull.vertices[static_cast<std::size_t>(i)];
+      out.add(edge_between(x, s.p + s.R * hull.vertices[static_cast<std::size_t>(j)]));
+      if (count > 3) out.add(vertex_at(x));
+    }
   }
 }
 

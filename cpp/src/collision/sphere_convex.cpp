@@ -36,16 +36,18 @@ PointDistance distance_from_edges(const Vec3& c, const Hull& hull, const Hull::F
   for (const Hull::Edge& edge : hull.edges) {
     const Vec3& from = hull.vertices[static_cast<std::size_t>(edge.from)];
     const Vec3& to = hull.vertices[static_cast<std::size_t>(edge.to)];
-    const Vec3 e = (to - from).normalized();
-    const bool before = e.dot(c - from) < 0, behind = e.dot(c - to) > 0;
-    Vec3 w = before ? c - from : c - to;
-    if (!before && !behind) w -= e.dot(w) * e;
+    const Vec3 e = to - from;
+    const double along = e.dot(c - from), length = e.squaredNorm();
+    const bool inner = along > 0 && along < length;
+    Vec3 w = along > 0 ? c - to : c - from;
+    if (inner) w = (c - from) - (along / length) * e;
     const double square = w.squaredNorm();
     if (least >= 0 && square >= least) continue;
     least = square;
     v = w;
-    t = before || behind ? Vec3::Zero() : e;
+    t = inner ? e : Vec3::Zero();
   }
+  if (!t.isZero(0)) t.normalize();
   PointDistance out = distance_from_point(v, highest.normal);
   if (t.isZero(0) || out.d <= 0) return out;
   out.n = (out.n - t.dot(out.n) * t).normalized();  // v lost digits where it is short

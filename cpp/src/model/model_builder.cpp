@@ -63,6 +63,21 @@ BodyInertia solid_sphere(double mass, double radius) {
   return {mass, Vec3::Zero(), 0.4 * mass * radius * radius * Mat3::Identity()};
 }
 
+BodyInertia solid_box(double mass, const Vec3& half) {
+  const Vec3 s = mass / 3 * half.cwiseAbs2();
+  BodyInertia body{mass, Vec3::Zero(), Mat3::Zero()};
+  body.I_J.diagonal() << s.y() + s.z(), s.x() + s.z(), s.x() + s.y();
+  return body;
+}
+
+BodyInertia solid_cylinder(double mass, double radius, double half_length) {
+  const double along = 0.5 * mass * radius * radius;
+  const double across = along / 2 + mass / 3 * half_length * half_length;
+  BodyInertia body{mass, Vec3::Zero(), Mat3::Zero()};
+  body.I_J.diagonal() << across, across, along;
+  return body;
+}
+
 ModelBuilder::ModelBuilder(std::string name, std::string root)
     : name_(std::move(name)), root_(std::move(root)) {
   links_.push_back({root_, {}});

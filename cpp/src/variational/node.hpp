@@ -69,6 +69,19 @@ struct Node {
   double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
 
+// contacts.cpp
+
+/// With room for the rows of any pair.
+Contact fresh_contact(const TreeCoordinates& trees);
+
+Contact::Motion motion_of(double u, double epsilon_u);
+
+/// Writes u, epsilon_u and motion from n and the node's v. Needs typical_speed.
+void classify(const Node& node, double speed, double relative, Contact& c);
+
+/// A speed of the whole model, [m/s].
+double typical_speed(const ModelData& model, const StepOptions& options, const Node& node);
+
 /// The place of a pair in the pool; the lists by place grow with it.
 int place_of(const ModelData& model, int number, Node& node);
 
@@ -78,6 +91,8 @@ void forget_pairs(Node& node);
 /// Writes contacts (motion included) and v. Needs t, q, p. Pairs that have parted are not held.
 /// @return false where the mass matrix is singular.
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node);
+
+// node.cpp
 
 /// Takes the approach of held contacts away (a plastic projection): the closing half kick of a
 /// sustained contact. Changes p and v.

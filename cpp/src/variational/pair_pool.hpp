@@ -6,7 +6,6 @@
 #pragma once
 
 #include <deque>
-#include <unordered_map>
 #include <vector>
 
 #include "saltus/model/model.hpp"
@@ -39,7 +38,15 @@ class PairPool {
   bool all_;
   std::deque<Pair> pair_, solid_;  ///< at addresses that stay
   std::vector<int> solid_of_, number_;
-  std::unordered_map<int, int> place_;  ///< by number, unless all are made
+  void grow_table();
+  std::size_t slot_of(int pair) const;
+
+  /// Open addressing: the place of a number is near its hash, -1 marks a free slot. A power of two
+  /// of slots, half of them free at least. Unused where all are made.
+  struct Entry {
+    int number, place;
+  };
+  std::vector<Entry> table_;
 };
 
 }  // namespace saltus

@@ -121,7 +121,7 @@ inline std::vector<Pair> pairs_of(const Tree& tree, const std::vector<PlacedShap
   return pairs;
 }
 
-/// A sphere on one joint and a shape of the kind on another, or on the world if a half-space.
+/// Two shapes on joints of a tree.
 struct Scene {
   Tree tree;
   std::vector<PlacedShape> shapes;
@@ -135,17 +135,26 @@ struct Scene {
   }
 };
 
-inline Scene random_scene(const std::string& kind, const TreeOptions& options, Random& random) {
+/// A shape of each kind on two joints, or the second on the world if it is a half-space.
+inline Scene random_scene(const std::string& kind_a, const std::string& kind_b,
+                          const TreeOptions& options, Random& random) {
   Scene scene;
   scene.tree = random_tree(options, random);
   const int joint_a = random.index(options.joints);
-  int joint_b = kind == "half_space" ? -1 : random.index(options.joints + 1) - 1;
+  int joint_b = kind_b == "half_space" ? -1 : random.index(options.joints + 1) - 1;
   if (joint_b == joint_a) joint_b = -1;
-  scene.shapes = {place(Sphere{random.uniform(0.05, 0.2)}, joint_a, random.pose(options.offset)),
-                  place(random_shape(kind, random), joint_b, random.pose(options.offset))};
+  const Shape a =
+      kind_a == "sphere" ? Sphere{random.uniform(0.05, 0.2)} : random_shape(kind_a, random);
+  scene.shapes = {place(a, joint_a, random.pose(options.offset)),
+                  place(random_shape(kind_b, random), joint_b, random.pose(options.offset))};
   scene.pair = make_pair_of(scene.tree, scene.shapes, 0, 1);
   scene.q = random.numbers(scene.tree.coordinates, 1.5);
   return scene;
+}
+
+/// A sphere on one joint and a shape of the kind on another.
+inline Scene random_scene(const std::string& kind, const TreeOptions& options, Random& random) {
+  return random_scene("sphere", kind, options, random);
 }
 
 }  // namespace saltus::testing_scene

@@ -45,7 +45,8 @@ struct World {
     for (int k = 0; k <= 8; ++k) {
       set_configuration(tree, q + k / 8.0 * dq, kin);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
-        least[i] = std::min(least[i], pair_gap(tree, kin, pairs[i]).phi);
+        const Gap g = pair_gap(tree, kin, pairs[i]);
+        if (!is_silent(tree, kin, pairs[i], g)) least[i] = std::min(least[i], g.phi);
       }
     }
     return least;

@@ -46,13 +46,23 @@ double first_root(Chord& chord, int samples) {
   return 2;
 }
 
-class RandomChords : public ::testing::TestWithParam<std::string> {};
+using Names = std::pair<std::string, std::string>;
+
+/// Both orders of a pair of kinds: what moves before what is at rest.
+Scene random_pair(const Names& kinds, int joints, Random& random) {
+  const bool exchanged = kinds.second != "half_space" && random.chance(0.5);
+  return random_scene(exchanged ? kinds.second : kinds.first,
+                      exchanged ? kinds.first : kinds.second, {.joints = joints, .offset = 0.6},
+                      random);
+}
+
+class RandomChords : public ::testing::TestWithParam<Names> {};
 
 TEST_P(RandomChords, FirstHitIsNeitherMissedNorLateNorInvented) {
   Random random(21);
   int hits = 0, near_misses = 0, chords = 0;
-  while (chords < 500) {
-    const Scene scene = random_scene(GetParam(), {.joints = 1 + random.index(6)}, random);
+  while (chords < 300) {
+    const Scene scene = random_pair(GetParam(), 1 + random.index(6), random);
     const double size = random.chance(0.2) ? 0.1 : 4;
     Chord chord{scene, scene.q, random.numbers(scene.tree.coordinates, size),
                 random.uniform(-0.02, 0.02)};
@@ -72,14 +82,14 @@ TEST_P(RandomChords, FirstHitIsNeitherMissedNorLateNorInvented) {
     EXPECT_NEAR(chord(hit.s), 0, 1e-13);    // the promise is phi's rounding
     EXPECT_LE(chord(hit.s + 1e-7), 1e-13);  // it does fall
   }
-  EXPECT_GT(hits, 60);
-  EXPECT_GT(near_misses, 60);
+  EXPECT_GT(hits, 20);
+  EXPECT_GT(near_misses, 10);
 }
 
 TEST_P(RandomChords, GapChangesByNoMoreThanItsBound) {
   Random random(22);
   for (int k = 0; k < 200; ++k) {
-    const Scene scene = random_scene(GetParam(), {.joints = 1 + random.index(6)}, random);
+    const Scene scene = random_pair(GetParam(), 1 + random.index(6), random);
     Chord chord{scene, scene.q, random.numbers(scene.tree.coordinates, 2), 0};
     const double start = chord(0), bound = chord.bound();
     for (int j = 1; j <= 50; ++j) EXPECT_LE(std::abs(chord(j / 50.0) - start), bound);
@@ -91,7 +101,7 @@ TEST_P(RandomChords, StartsFromOverlap) {
   Random random(23);
   int overlaps = 0;
   for (int k = 0; k < 1000; ++k) {
-    const Scene scene = random_scene(GetParam(), {.joints = 1 + random.index(3)}, random);
+    const Scene scene = random_pair(GetParam(), 1 + random.index(3), random);
     Chord chord{scene, scene.q, random.numbers(scene.tree.coordinates, 0.5), 0};
     if (chord(0) > -1e-6) continue;
     ++overlaps;
@@ -104,9 +114,10 @@ TEST_P(RandomChords, StartsFromOverlap) {
   EXPECT_GT(overlaps, 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, RandomChords,
-                         ::testing::Values("sphere", "capsule", "box", "cylinder", "half_space"),
-                         [](const auto& kind) { return kind.param; });
+INSTANTIATE_TEST_SUITE_P(Table, RandomChords, ::testing::ValuesIn(gap_table()),
+                         [](const ::testing::TestParamInfo<Names>& names) {
+                           return names.param.first + "_" + names.param.second;
+                         });
 
 Scene slide_along_x(double radius, const Shape& target) {
   Tree tree;

@@ -48,34 +48,46 @@ const Cylinder drum{1, 1}, pole{1, 3};
 
 INSTANTIATE_TEST_SUITE_P(
     All, Degenerate,
-    ::testing::Values(Case{"centres_coincide", Sphere{0.5}, O, -0.5, Z, 0},
-                      Case{"capsule_middle", Capsule{0.5, 1}, O, -0.5, X, 0},
-                      Case{"capsule_on_segment", Capsule{0.5, 1}, 0.7 * Z, -0.5, X, 0},
-                      Case{"capsule_end", Capsule{0.5, 1}, Z, -0.5, X, 0},
-                      Case{"capsule_without_length", Capsule{0.5, 0}, O, -0.5, X, 0},
-                      // over the end of the segment: of side and cap, the side
-                      Case{"capsule_side_or_cap", Capsule{0.5, 1}, Vec3(2, 0, 1), 1.5, X, 0.5},
-                      Case{"box_centre", cube, O, -1, X, 0},
-                      Case{"box_diagonal", cube, Vec3(-0.5, -0.5, 0.5), -0.5, -X, 0},
-                      Case{"box_two_faces", cube, Vec3(0.1, -0.5, 0.5), -0.5, -Y, 0},
-                      Case{"box_on_face", cube, Vec3(0.2, 0.3, -1), 0, -Z, 0},
-                      Case{"box_on_edge", cube, Vec3(0, 1, -1), 0, Y, 0},
-                      Case{"box_on_corner", cube, Vec3(-1, -1, -1), 0, -X, 0},
-                      Case{"box_face_or_edge", cube, Vec3(1, 2, 0), 1, Y, 0},
-                      Case{"drum_centre", drum, O, -1, Z, 0},
-                      Case{"drum_cap_or_side", drum, Vec3(0.5, 0, -0.5), -0.5, -Z, 0},
-                      Case{"pole_axis", pole, O, -1, X, 0},
-                      Case{"pole_axis_by_cap", pole, -2.5 * Z, -0.5, -Z, 0},
-                      Case{"drum_on_rim", drum, Vec3(0, 1, 1), 0, Z, 0},
-                      Case{"drum_over_rim", drum, Vec3(0, 1, 2), 1, Z, 0},
-                      Case{"drum_beside_rim", drum, Vec3(0, 2, 1), 1, Y, 0.5},
-                      Case{"half_space_face", HalfSpace{}, Vec3(1, 2, 0), 0, Z, 0},
-                      Case{"half_space_deep", HalfSpace{}, Vec3(1, 2, -5), -5, Z, 0}),
+    ::testing::Values(
+        Case{"centres_coincide", Sphere{0.5}, O, -0.5, Z, 0},
+        Case{"capsule_middle", Capsule{0.5, 1}, O, -0.5, X, 0},
+        Case{"capsule_on_segment", Capsule{0.5, 1}, 0.7 * Z, -0.5, X, 0},
+        Case{"capsule_end", Capsule{0.5, 1}, Z, -0.5, X, 0},
+        Case{"capsule_without_length", Capsule{0.5, 0}, O, -0.5, X, 0},
+        // over the end of the segment: of side and cap, the side
+        Case{"capsule_side_or_cap", Capsule{0.5, 1}, Vec3(2, 0, 1), 1.5, X, 0.5},
+        Case{"box_centre", cube, O, -1, X, 0},
+        Case{"box_diagonal", cube, Vec3(-0.5, -0.5, 0.5), -0.5, -X, 0},
+        Case{"box_two_faces", cube, Vec3(0.1, -0.5, 0.5), -0.5, -Y, 0},
+        Case{"box_on_face", cube, Vec3(0.2, 0.3, -1), 0, -Z, 0},
+        Case{"box_on_edge", cube, Vec3(0, 1, -1), 0, Y, 0},
+        Case{"box_on_corner", cube, Vec3(-1, -1, -1), 0, -X, 0},
+        Case{"box_face_or_edge", cube, Vec3(1, 2, 0), 1, Y, 0},
+        Case{"drum_centre", drum, O, -1, Z, 0},
+        Case{"drum_cap_or_side", drum, Vec3(0.5, 0, -0.5), -0.5, -Z, 0},
+        Case{"pole_axis", pole, O, -1, X, 0}, Case{"pole_axis_by_cap", pole, -2.5 * Z, -0.5, -Z, 0},
+        Case{"drum_on_rim", drum, Vec3(0, 1, 1), 0, Z, 0},
+        Case{"drum_over_rim", drum, Vec3(0, 1, 2), 1, Z, 0},
+        Case{"drum_beside_rim", drum, Vec3(0, 2, 1), 1, Y, 0.5},
+        // by its first shortest axis; F = k/(1 + k d), k = 1/4 and 1/9 there
+        Case{"ellipsoid_centre", Ellipsoid{Vec3(1, 2, 3)}, O, -1, X, std::hypot(1.0 / 3, 1.0 / 8)},
+        Case{"ellipsoid_pole", Ellipsoid{Vec3(1, 2, 3)}, 3 * Z, 0, Z, std::hypot(3.0, 0.75)},
+        Case{"half_space_face", HalfSpace{}, Vec3(1, 2, 0), 0, Z, 0},
+        Case{"half_space_deep", HalfSpace{}, Vec3(1, 2, -5), -5, Z, 0}),
     [](const auto& x) { return x.param.name; });
 
 // The squares of such offsets have few digits or none.
 TEST(NearlyDegenerate, TinyOffsetsAreSound) {
-  const std::vector<Shape> shapes = {Sphere{1}, Capsule{1, 1}, cube, drum, pole};
+  const Convex tetrahedron{std::make_shared<const Hull>(convex_hull({O, X, Y, Z}))};
+  const std::vector<Shape> shapes = {Sphere{1},
+                                     Capsule{1, 1},
+                                     cube,
+                                     drum,
+                                     pole,
+                                     Ellipsoid{Vec3(1, 1, 1)},
+                                     Ellipsoid{Vec3(1, 1, 2)},
+                                     Ellipsoid{Vec3(2, 3, 1)},
+                                     tetrahedron};
   const std::vector<Vec3> places = {
       O, Z, Vec3(1, 1, 1), Vec3(0, 1, 1), Vec3(0, 1, 3), Vec3(0, 0, -1)};
   Random random(4);

@@ -1,7 +1,7 @@
 // What the stepper calls in every step must not allocate.
 #include <gtest/gtest.h>
 
-#include "collision/random_scene.hpp"
+#include "collision/gap_scene.hpp"
 #include "count_allocations.hpp"
 #include "saltus/collision/broad_phase.hpp"
 #include "saltus/collision/chord.hpp"
@@ -53,6 +53,19 @@ TEST(Allocation, NoneInAStep) {
   }
   EXPECT_EQ(allocations, before);
   EXPECT_GT(hits, 0);
+}
+
+TEST(Allocation, NoneInAnyGap) {
+  for (const auto& names : gap_table()) {
+    Random random(42);
+    for (int k = 0; k < 100; ++k) {
+      const testing_scene::Placed x = testing_scene::random_placed(names, random);
+      const long before = allocations;
+      const Gap g = x.gap();
+      EXPECT_EQ(allocations, before) << names.first << " " << names.second;
+      EXPECT_TRUE(std::isfinite(g.phi));
+    }
+  }
 }
 
 }  // namespace

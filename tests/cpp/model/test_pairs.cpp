@@ -1,6 +1,8 @@
 // Which pairs of shapes are watched, and what they are called.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <algorithm>
 
 #include "model/builders.hpp"
@@ -17,7 +19,7 @@ using Names = std::vector<std::string>;
 
 Names pair_names(const Model& model) {
   Names names;
-  for (std::size_t i = 0; i < model->pairs.size(); ++i) {
+  for (int i = 0; i < model->pairs.size(); ++i) {
     names.push_back(model.pair_name(static_cast<int>(i)));
   }
   std::sort(names.begin(), names.end());
@@ -111,8 +113,8 @@ TEST(Pairs, TheSphereComesFirst) {
   builder.add_joint(joint("slide", JointType::prismatic, "world", "crate"));
   builder.add_joint(joint("free", JointType::floating, "world", "ball"));
   const Model model = builder.build();
-  ASSERT_EQ(model->pairs.size(), 1u);
-  const Pair& pair = model->pairs[0];
+  ASSERT_EQ(model->pairs.size(), 1);
+  const Pair pair = model.pair(0);
   EXPECT_EQ(model.pair_name(0), "ball ~ crate");
   EXPECT_EQ(model->shapes[static_cast<std::size_t>(pair.a)].name, "ball");
   EXPECT_EQ(pair.chain.size(), 7u);
@@ -122,27 +124,33 @@ TEST(Pairs, TheSphereComesFirst) {
   EXPECT_DOUBLE_EQ(pair.touch, 1e-10 * 0.25);  // of the smaller shape
 }
 
-TEST(Pairs, WithoutAGapFunctionAreWarnedOf) {
+// Boxes touch by corners and crossing edges, each with a name of its own.
+TEST(Pairs, OfBoxesAreTheirParts) {
   ModelBuilder builder("crates");
-  for (const std::string name : {"a", "b", "c"}) {
+  for (const std::string name : {"a", "b"}) {
     builder.add_link({name, some_body()});
     builder.add_joint(joint("free_" + name, JointType::floating, "world", name));
+    builder.add_shape(name, Box{{1, 1, 1}});
   }
-  builder.add_shape("a", Box{{1, 1, 1}}).add_shape("b", Cylinder{1, 1});
-  builder.add_shape("c", Box{{1, 1, 1}});
-  builder.add_warning("a note");
   const Model model = builder.build();
-  if (has_gap(Box{{1, 1, 1}}, Cylinder{1, 1}) || has_gap(Box{{1, 1, 1}}, Box{{1, 1, 1}})) {
-    GTEST_SKIP() << "these pairs have a gap function by now";
-  }
-  EXPECT_TRUE(model->pairs.empty());
-  ASSERT_EQ(model->warnings.size(), 3u);
-  EXPECT_EQ(model->warnings[0], "a note");
-  EXPECT_NE(model->warnings[1].find("box-box"), std::string::npos);
-  EXPECT_NE(model->warnings[1].find("a ~ c"), std::string::npos);
-  // one warning for both orders of the kinds
-  EXPECT_NE(model->warnings[2].find("box-cylinder"), std::string::npos);
-  EXPECT_NE(model->warnings[2].find("a ~ b, b ~ c"), std::string::npos);
+  ASSERT_EQ(model->pairs.size(), 8 + 8 + 144);
+  EXPECT_EQ(model.pair_name(0), "a[+++] ~ b");
+  EXPECT_EQ(model.pair_name(8), "b[+++] ~ a");
+  EXPECT_EQ(model.pair_name(16), "a[x++] ~ b[x++]");
+  EXPECT_EQ(model.pair(8).b, 0);
+  const Names names = pair_names(model);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_TRUE(model->warnings.empty());
+  EXPECT_THROW(model.pair(160), ModelError);
+  EXPECT_THROW(model.pair(-1), ModelError);
+}
+
+TEST(Pairs, AreCountedByKind) {
+  ModelBuilder builder = two_balls();
+  builder.add_half_space("floor", Vec3::UnitZ());
+  const std::map<std::pair<std::string, std::string>, int> expected = {
+      {{"half_space", "sphere"}, 2}, {{"sphere", "sphere"}, 1}};
+  EXPECT_EQ(builder.build().pair_kinds(), expected);
 }
 
 TEST(HalfSpace, LiesBelowItsPlane) {
@@ -182,12 +190,12 @@ TEST(Shapes, MoveWithTheirLink) {
 
 TEST(Pairs, CanBeLeftOut) {
   const Model model = two_balls().add_half_space("floor", Vec3::UnitZ()).build();
-  EXPECT_EQ(model->pairs.size(), 3u);
+  EXPECT_EQ(model->pairs.size(), 3);
   const Model without = model.without_collisions();
   EXPECT_TRUE(without->pairs.empty());
   EXPECT_EQ(without->shapes.size(), model->shapes.size());
   EXPECT_EQ(without.n_q(), model.n_q());
-  EXPECT_EQ(model->pairs.size(), 3u);  // the first is as it was
+  EXPECT_EQ(model->pairs.size(), 3);  // the first is as it was
 }
 
 }  // namespace

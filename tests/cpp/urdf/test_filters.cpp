@@ -121,7 +121,7 @@ TEST(Srdf, LinksThatTheRobotHasNotAreOneWarning) {
       load(balls(), {.srdf = "<robot>\n<disable_collisions link1=\"a\" link2=\"x\"/>"
                              "<disable_collisions link1=\"a\" link2=\"c\"/>"
                              "<disable_collisions link1=\"y\" link2=\"x\"/></robot>"});
-  EXPECT_EQ(model->pairs.size(), 4u);
+  EXPECT_EQ(model->pairs.size(), 4);
   ASSERT_EQ(model->warnings.size(), 1u);
   expect_warning(
       model, {"SRDF text:2: <disable_collisions> and below: links that the robot has not", "x, y",

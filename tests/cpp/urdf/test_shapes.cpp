@@ -107,7 +107,7 @@ TEST(UrdfExtension, HalfSpaceHasDefaults) {
 TEST(UrdfExtension, HalfSpacesStayWithTheWorldUnderAFloatingRoot) {
   const std::string text = robot(ball_link("ball", collision("<sphere radius=\"0.1\"/>")) +
                                  "<saltus><half_space name=\"floor\"/></saltus>");
-  EXPECT_EQ(load(text)->pairs.size(), 0u);  // both are fixed to the world
+  EXPECT_EQ(load(text)->pairs.size(), 0);  // both are fixed to the world
   const Model model = load(text, {.root_joint = JointType::floating});
   EXPECT_DOUBLE_EQ(model.gaps(model.state({{"root_z", 3.0}}).q).phi[0], 2.9);
 }
@@ -119,7 +119,7 @@ TEST(UrdfExtension, ExcludedLinksHaveNoPair) {
   const std::string joints = joint("ja", "floating", "base", "a") +
                              joint("jb", "floating", "base", "b") +
                              joint("jc", "floating", "base", "c");
-  EXPECT_EQ(load(robot(links + joints))->pairs.size(), 3u);
+  EXPECT_EQ(load(robot(links + joints))->pairs.size(), 3);
   const Model model =
       load(robot(links + joints + "<saltus><exclude link1=\"c\" link2=\"a\"/></saltus>"));
   EXPECT_EQ(model.gaps(VecX::Zero(18)).names, (std::vector<std::string>{"a ~ b", "b ~ c"}));

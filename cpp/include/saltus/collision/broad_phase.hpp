@@ -29,7 +29,13 @@ struct BroadPhase {
   int axis = 0;  ///< of the sweep: the one along which the shapes are spread; likewise
   int rest = 0;  ///< calls left in which the tree is used without a sweep; likewise
   BallTree tree;
-  std::vector<double> size;    ///< (shapes) [m] radius of the ball that holds a shape
+  /// What is asked of a shape, packed: shapes themselves are long.
+  struct Ball {
+    int joint;
+    Vec3 p_JG;    ///< [m] its centre
+    double size;  ///< [m] radius of the ball that holds the shape
+  };
+  std::vector<Ball> ball;      ///< (shapes)
   std::vector<Vec3> center;    ///< (shapes) [m] p_WG; by find_candidates
   std::vector<double> reach;   ///< (shapes) [m] radius of the swept ball; likewise
   std::vector<double> lower;   ///< (shapes) [m] its lower end along `axis`; likewise

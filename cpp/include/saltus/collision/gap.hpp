@@ -49,6 +49,10 @@ SALTUS_EXPORT bool has_gap(const Shape& a, const Shape& b);
 
 /// The signed distance: the greatest separation along any direction, and where it is below 0 the
 /// least way that takes the shapes apart. Needs has_gap(a, b).
+///
+/// Where many points are as near (a face on a face or an edge, parallel edges or axes), the
+/// witnesses are one extreme place of those: a corner or an end over the other shape, or where two
+/// edges cross. Which one is the same for the same input, and told in each pair's header.
 SALTUS_EXPORT Gap gap(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);
 
 /// The table of pairs that have a gap, as (name, name), for people; generated from the dispatch.

@@ -65,6 +65,7 @@ class SALTUS_EXPORT PairTable {
   std::vector<std::vector<int>> excluded_;  ///< (shapes) later ones, ascending, watched otherwise
   std::vector<Count> row_;                  ///< (shapes + 1) number of the first pair of a row
   std::vector<char> used_;                  ///< (shapes)
+  std::vector<char> plain_;  ///< (shapes) alone on its joint frame and in no list of exclusions
 };
 
 }  // namespace saltus

@@ -112,5 +112,8 @@ SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& 
 
 /// Inertia of a homogeneous ball about its centre, a frequent need.
 SALTUS_EXPORT BodyInertia solid_sphere(double mass, double radius);
+/// The same of a box and of a cylinder along z, by the sizes of their shapes.
+SALTUS_EXPORT BodyInertia solid_box(double mass, const Vec3& half);
+SALTUS_EXPORT BodyInertia solid_cylinder(double mass, double radius, double half_length);
 
 }  // namespace saltus
