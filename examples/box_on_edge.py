@@ -1,8 +1,8 @@
 """A box that falls 0.5 m onto one of its edges, tilted by 0.3 rad.
 
-Both corners of the edge touch at sqrt(2 d / g) = 0.319275 s. In the plane they are one contact, so one
-of them takes the whole impulse. It acts beside the centre of mass: the box turns and hops on, on
-other corners, and keeps its energy to rounding.
+Both corners of the edge touch at sqrt(2 d / g) = 0.319275 s. In the plane they are one contact, so
+that one of them takes the whole impulse. It acts beside the centre of mass: the box turns and hops
+on, on other corners, and keeps its energy to rounding.
 """
 
 from math import cos, sin

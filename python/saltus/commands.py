@@ -65,12 +65,10 @@ def simulate(chosen: argparse.Namespace) -> int:
 def info(chosen: argparse.Namespace) -> int:
     """Print what a model consists of."""
     model = _load(chosen)
-    pairs = _gaps_of_pairs(model)
     mass = sum(link.mass for link in model.links)
-    gaps = "" if len(pairs) == model.n_pairs else f" with {model.n_pairs} gaps"
     print(
         f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
-        f"coordinates, {len(model.shapes)} shapes, {len(pairs)} pairs{gaps}, {mass:g} kg"
+        f"coordinates, {len(model.shapes)} shapes, {model.n_pairs} gaps, {mass:g} kg"
     )
     _print_solvers(model)
     _print_table(
@@ -82,8 +80,9 @@ def info(chosen: argparse.Namespace) -> int:
         ["name", "shape", "link"],
         ([s.name, repr(s.shape), model.links[s.link].name] for s in model.shapes),
     )
-    _print_pair_kinds(model, pairs)
+    _print_pair_kinds(model)
     if chosen.pairs:
+        pairs = Counter((min(gap.a, gap.b), max(gap.a, gap.b)) for gap in model.pairs)
         rows = ([_named(model, pair), _kind(model, pair), str(n)] for pair, n in pairs.items())
         _print_table("pairs", ["name", "kind", "gaps"], rows)
     if chosen.gaps:
@@ -143,11 +142,6 @@ def _print_coordinates(model: saltus.Model) -> None:
     _print_table("coordinates", ["name", "joint", "unit", "lower", "upper"], rows)
 
 
-def _gaps_of_pairs(model: saltus.Model) -> Counter[tuple[int, int]]:
-    """Return how many gaps each two shapes have that are watched, by their indices."""
-    return Counter((min(gap.a, gap.b), max(gap.a, gap.b)) for gap in model.pairs)
-
-
 def _named(model: saltus.Model, pair: tuple[int, int]) -> str:
     return " ~ ".join(model.shapes[i].name for i in pair)
 
@@ -156,12 +150,11 @@ def _kind(model: saltus.Model, pair: tuple[int, int]) -> str:
     return " ~ ".join(sorted(saltus.shape_name(model.shapes[i].shape) for i in pair))
 
 
-def _print_pair_kinds(model: saltus.Model, pairs: Counter[tuple[int, int]]) -> None:
-    shapes = Counter(_kind(model, pair) for pair in pairs)
-    gaps = Counter({" ~ ".join(kind): n for kind, n in model.pair_kinds().items()})
-    table = sorted(" ~ ".join(sorted(row)) for row in saltus.gap_table())
-    rows = ([kind, str(shapes[kind]), str(gaps[kind])] for kind in table)
-    _print_table("kinds of pairs", ["kind", "in this model", "gaps"], rows)
+def _print_pair_kinds(model: saltus.Model) -> None:
+    counts = model.pair_kinds()
+    table = sorted({(min(row), max(row)) for row in saltus.gap_table()})
+    rows = ([f"{a} ~ {b}", str(counts.get((a, b), 0))] for a, b in table)
+    _print_table("kinds of pairs", ["kind", "gaps in this model"], rows)
 
 
 def _print_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

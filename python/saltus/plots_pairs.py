@@ -174,7 +174,7 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
 
 
 def _project(points: npt.ArrayLike) -> Array:
-    return np.asarray(points) @ ACROSS.T
+    return np.asarray(np.asarray(points) @ ACROSS.T)
 
 
 def _normals(facets: Facets) -> Array:

@@ -160,7 +160,7 @@ def galton(rows: int = 20, columns: int = 10, balls: int = 5, *, pitch: float = 
     rows, columns : int
         Of pins: 20 and 10 make 200.
     balls : int
-        Each starts one hundredth of the pitch beside the one before it.
+        Each starts 0.013 of the pitch beside the one before it.
     pitch : float
         [m] between pins in a row, and between rows; a pin's radius is 1/10 of it, a ball's 1/5.
 
@@ -182,7 +182,7 @@ def galton(rows: int = 20, columns: int = 10, balls: int = 5, *, pitch: float = 
         for row in range(rows)
         for k in range(columns)
     )
-    at = [((0.01 * i + 0.13) * pitch, 0.0, pitch) for i in range(balls)]
+    at = [((0.013 * i + 0.13) * pitch, 0.0, pitch) for i in range(balls)]
     sliders = "".join(_slider(i, "xz", at[i], 0.2 * pitch, 1.0) for i in range(balls))
     names = " ".join(f"ball_{i}" for i in range(balls))
     return f"""\

@@ -35,7 +35,7 @@ def test_a_billiard_break_keeps_momentum_and_energy():
 def test_a_billiard_break_moves_apart():
     run = billiard_run()
     gaps = run.model.gaps(run.q[-1])
-    assert gaps.phi.min() > 0
+    assert gaps.phi.min() > -1e-12  # some balls stay, and touch on
     rates = gaps.phi_q @ run.v[-1]
     assert rates[gaps.phi < 0.02].min() > -1e-9  # neighbours do not come back to each other
 
@@ -66,7 +66,7 @@ def test_balls_leave_a_galton_board_as_fast_as_they_fall():
     model = saltus.load_urdf(saltus.scenes.galton(balls=balls))
     assert len(model.shapes) == 200 + balls + 2
     assert model.n_pairs == balls * (200 + 2)  # no pin with a pin, no ball with a ball
-    run = saltus.simulate(model, duration=10.0, progress=False)
+    run = saltus.simulate(model, duration=60.0, progress=False)
     z, v = run.q[-1][1::2], run.v[-1].reshape(balls, 2)
     assert z.max() < -21 * 0.05
     # every impact rounds a velocity by 1e-16 of itself; hundreds of them stay below 1e-12
@@ -90,9 +90,10 @@ def test_a_blow_goes_through_a_thousand_balls():
     hit = run.impact(0)
     assert hit.pairs == [f"ball_{i} ~ ball_{i + 1}" for i in range(999)]
     np.testing.assert_allclose(hit.lambdas, hit.lambdas[0], rtol=1e-10)
-    last = np.abs(run.column("swing_999", "v")).max()
-    assert last == pytest.approx(math.sqrt(2 * G * (1 - math.cos(0.3)) / 1.001), rel=1e-4)  # h^2
+    speed = math.sqrt(2 * G * (1 - math.cos(0.3)) / 1.001)  # of the first ball, at its lowest
+    assert hit.lambdas[0] == pytest.approx(1.001 * speed, rel=1e-4)  # the step's error, O(h^2)
     assert np.abs(run.q[-1][:-1]).max() < 1e-9  # all but the last hang still
+    assert run.q[-1][-1] < -0.05  # and that one rises
 
 
 def test_a_quadruped_stands_and_carries_a_parcel():
