@@ -48,21 +48,6 @@ void note_silent(const ModelData& model, double near, int index, const Gap& g, N
   node.silent.push_back(index);
 }
 
-/// The next contact of the pool, of the pair at place `index`.
-Contact& write_contact(const ModelData& model, const StepOptions& options, double speed, int index,
-                       const Pair& pair, const Gap& g, Node& node) {
-  Contact& c = next_in_pool(node);
-  add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
-  shape_row(model, node.trees, pair, c.n);
-  take_from(node.trees, node.dense, c.n);
-  c.pair = index;
-  c.phi = g.phi;
-  c.n_W = g.n_W;
-  c.p_WB = g.p_WB;
-  classify(node, speed, options.rest, c);
-  return c;
-}
-
 /// Adds the pair to the contacts if it touches, or would within epsilon_t h.
 void add_if_touching(const ModelData& model, const StepOptions& options, double speed, int index,
                      Node& node) {
@@ -72,7 +57,15 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
-  const Contact& c = write_contact(model, options, speed, index, pair, g, node);
+  Contact& c = next_in_pool(node);
+  add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
+  shape_row(model, node.trees, pair, c.n);
+  take_from(node.trees, node.dense, c.n);
+  c.pair = index;
+  c.phi = g.phi;
+  c.n_W = g.n_W;
+  c.p_WB = g.p_WB;
+  classify(node, speed, options.rest, c);
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
   node.contact_of[index] = node.touching++;
 }
@@ -147,21 +140,6 @@ bool find_contacts(const ModelData& model, const StepOptions& options, Node& nod
     if (node.contact_of[place] < 0) node.held[place] = 0;
   }
   return true;
-}
-
-void keep_until_here(const ModelData& model, const StepOptions& options, const Pair& face,
-                     int place, Node& node) {
-  if (node.contact_of[place] >= 0) return;
-  const Gap g = pair_gap(model.tree, node.kin, face);
-  write_contact(model, options, typical_speed(model, options, node), place, face, g, node);
-  node.contact_of[place] = node.touching++;
-  node.held[place] = 1;
-}
-
-void let_go(int place, Node& node) {
-  Contact& c = node.contacts[node.contact_of[place]];
-  node.held[place] = 0;
-  c.motion = Contact::Motion::leaves;
 }
 
 }  // namespace saltus

@@ -92,12 +92,6 @@ void forget_pairs(Node& node);
 /// @return false where the mass matrix is singular.
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node);
 
-/// A corner that was held in the plane of a face, and is beside it now: a contact still while the
-/// force that held it has its closing half kick (settle_held_contacts); then let it go.
-void keep_until_here(const ModelData& model, const StepOptions& options, const Pair& face,
-                     int place, Node& node);
-void let_go(int place, Node& node);
-
 // node.cpp
 
 /// Takes the approach of held contacts away (a plastic projection): the closing half kick of a

@@ -1,6 +1,5 @@
 #include "saltus/variational/stepper.hpp"
 
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -25,7 +24,6 @@ struct Stepper::Impl {
   void check_overlap() const;
   void fly_one_arc(double left);
   void arrive(double t);
-  void settle_holds();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome) const;
   [[noreturn]] void fail_jammed() const;
@@ -167,28 +165,12 @@ void Stepper::Impl::arrive(double t) {
     node.p = flight.arc.p_end;
     node.v = flight.arc.v;
     if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
-    settle_holds();
+    settle_held_contacts(*model, node);
   }
   if (!impact_pending(node)) return;
   if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();
   if (!resolve_node_impact(*model, options, flight.arc.energy, node, report)) fail_jammed();
   flight.history.clear();
-}
-
-// The closing half kick of what the arc held closed, corners that slid over a border included: the
-// edges that bear the body from here on would take its half kick for an approach.
-void Stepper::Impl::settle_holds() {
-  std::array<int, most_constraints> over{};
-  int count = 0;
-  for (int i = 0; i < flight.active; ++i) {
-    const ArcConstraint& c = flight.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || !c.in_face) continue;
-    if (node.contact_of[c.place] >= 0) continue;
-    keep_until_here(*model, options, c.face, c.place, node);
-    over[count++] = c.place;
-  }
-  settle_held_contacts(*model, node);
-  for (int i = 0; i < count; ++i) let_go(over[i], node);
 }
 
 // A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.
