@@ -29,6 +29,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_jammed() const;
   [[noreturn]] void fail_impacts() const;
   std::string contact_list() const;
+  std::string singular_joint() const;
 
   Model model;
   StepOptions options;
@@ -193,6 +194,22 @@ std::string Stepper::Impl::contact_list() const {
   return list_names(names);
 }
 
+/// The joint that is nearest to where its yaw and roll are one, if any is within half a radian.
+std::string Stepper::Impl::singular_joint() const {
+  std::ostringstream text;
+  double least = 0.5;
+  for (const JointInfo& joint : model->joints) {
+    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+    const double pitch = node.q[joint.coordinates[joint.coordinates.size() - 2]];
+    if (!(std::abs(std::cos(pitch)) < least)) continue;
+    least = std::abs(std::cos(pitch));
+    text.str("");
+    text << "; joint \"" << joint.name << "\" is at pitch = " << pitch
+         << " rad, and singular at +-90 deg";
+  }
+  return text.str();
+}
+
 void Stepper::Impl::fail(FlightOutcome outcome) const {
   std::ostringstream text;
   const Arc& arc = flight.arc;
@@ -213,11 +230,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
       text << "DEL residual " << arc.residual << " after " << arc.iterations
            << " iterations at t = " << node.t << " s, arc of " << arc.tau
            << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
-      for (const JointInfo& joint : model->joints) {
-        if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
-        text << "; joint \"" << joint.name << "\" is singular at pitch = +-90 deg";
-        break;
-      }
+      text << singular_joint();
   }
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }

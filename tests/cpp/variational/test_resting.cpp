@@ -173,7 +173,9 @@ TEST(Resting, APlankAcrossAPlank) {
   EXPECT_LE(r.drift, still);
 }
 
-// A corner that slides over the border of a face is let go; the box goes on, and tips later.
+// A corner that slides over the border of a face is let go, and the edges that cross there take the
+// load: they hop by what a step without support falls, g h^2 = 2.5e-4 m, and less. The box goes on,
+// and tips when its centre is over the border.
 TEST(Resting, ABoxSlidesOverTheEdgeOfATable) {
   ModelBuilder b("table");
   b.add_shape("world", Box{{1, 1, 0.5}}, {Mat3::Identity(), {0, 0, -0.5}});
@@ -191,8 +193,8 @@ TEST(Resting, ABoxSlidesOverTheEdgeOfATable) {
   Stepper stepper(model, {.h = 0.005});
   const int x = model.coordinate("block_x"), pitch = model.coordinate("block_pitch");
   for (int k = 0; k < 96; ++k) stepper.step(state);  // its centre is 0.02 m before the border
-  EXPECT_NEAR(state.q[x], 0.48, 1e-12);
-  EXPECT_LE(std::abs(state.q[pitch]), still);
+  EXPECT_NEAR(state.q[x], 0.48, 2.5e-4);
+  EXPECT_LE(std::abs(state.q[pitch]), 2.5e-4 / 0.2);
   for (int k = 0; k < 40; ++k) stepper.step(state);
   EXPECT_GT(state.q[pitch], 0.01);  // it tips over the border
   const double now = model.kinetic_energy(state) + model.potential_energy(state.q);
