@@ -108,7 +108,7 @@ def main() -> None:
         results = measure(quick=True, seconds=0.002, rounds=1)
     else:
         results = measure(quick=False, seconds=arguments.seconds, rounds=arguments.rounds)
-    print(table.markdown(results) + "\n\n" + collisions.markdown(results["collisions"]))
+    print(table.markdown(results) + "\n\n" + collisions.markdown(results.get("collisions")))
     text = json.dumps(results, indent=1)
     if arguments.json:
         arguments.json.write_text(text)

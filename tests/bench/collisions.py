@@ -37,7 +37,10 @@ def growth(rows: list[dict]) -> dict[str, float]:
     return exponents
 
 
-def markdown(result: dict) -> str:
+def markdown(result: dict | None) -> str:
+    """Return what `measure` found; numbers of an older run have none of it."""
+    if result is None:
+        return "(not measured)"
     return "\n\n".join([HOW, _gaps(result), _broad_phase(result), _cradle(result["cradle"])])
 
 

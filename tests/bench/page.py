@@ -79,7 +79,7 @@ def markdown(results: dict, image: str | None) -> str:
         ratios=table.ratios(results),
         growth=table.growth(results["growth"]) or "(not measured)",
         impacts=table.impacts(results["impacts"]),
-        collisions=collisions.markdown(results["collisions"]),
+        collisions=collisions.markdown(results.get("collisions")),
         batch=table.batch(results["batch"]) or "(not measured)",
         emblem=table.emblem(results["emblem"]),
         times=table.times(results["rows"]),
