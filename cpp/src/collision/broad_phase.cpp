@@ -62,10 +62,12 @@ void bound_joints(const Tree& tree, const Kinematics& kin, const VecRef& dq, Bro
 
 void place_balls(const Tree& tree, const Kinematics& kin, const VecRef& dq, double margin,
                  BroadPhase& bp) {
-  for (const int i : bp.order) {
+  for (const int i : bp.bounded) {
     const BroadPhase::Ball& ball = bp.ball[i];
     const int j = ball.joint;
-    const Vec3 c_W = j < 0 ? ball.p_JG : Vec3(kin.joint[j].R * ball.p_JG);
+    // most balls sit in their joint's origin: then R need not come from far memory
+    const bool turned = j >= 0 && !ball.p_JG.isZero(0);
+    const Vec3 c_W = turned ? Vec3(kin.joint[j].R * ball.p_JG) : ball.p_JG;
     bp.center[i] = j < 0 ? c_W : Vec3(kin.origin[tree.root[j]] + kin.joint[j].p + c_W);
     const double motion = j < 0 ? 0 : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W);
     // half the margin a ball: margin a pair
@@ -82,8 +84,8 @@ void place_balls(const Tree& tree, const Kinematics& kin, const VecRef& dq, doub
 void choose_axis(BroadPhase& bp) {
   Vec3 mean = Vec3::Zero(), square = Vec3::Zero();
   const double n = static_cast<double>(bp.order.size());
-  for (const int i : bp.order) mean += bp.center[i] / n;
-  for (const int i : bp.order) square += (bp.center[i] - mean).cwiseAbs2();
+  for (const int i : bp.bounded) mean += bp.center[i] / n;
+  for (const int i : bp.bounded) square += (bp.center[i] - mean).cwiseAbs2();
   int best = 0;
   if (square.maxCoeff(&best) > better_axis * square[bp.axis]) bp.axis = best;
 }
@@ -146,8 +148,7 @@ void meet_bounded(const PairTable& pairs, BroadPhase& bp) {
     build(bp.order, bp.center, bp.tree);
   }
   refit(bp.center, bp.reach, bp.tree);
-  for_each_overlap(bp.center, bp.reach, bp.tree,
-                   [&](int i, int j) { add_candidates(pairs, i, j, bp); });
+  for_each_overlap(bp.tree, [&](int i, int j) { add_candidates(pairs, i, j, bp); });
 }
 
 /// Pairs with a half-space z <= 0, which does not move and adds its half of the margin here.
@@ -175,8 +176,9 @@ BroadPhase::BroadPhase(const Tree& model_tree, const std::vector<PlacedShape>& s
   candidates.reserve(std::min(static_cast<std::size_t>(pairs.size()), most_reserved));
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
     ball.push_back({shapes[i].joint, shapes[i].X_JG.p, bounding_radius(shapes[i].shape)});
-    if (pairs.is_used(i)) (is_unbounded(shapes[i]) ? unbounded : order).push_back(i);
+    if (pairs.is_used(i)) (is_unbounded(shapes[i]) ? unbounded : bounded).push_back(i);
   }
+  order = bounded;
   reserve(order.size(), tree);
 }
 
@@ -194,7 +196,7 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
 void start_anew(BroadPhase& bp) {
   bp.axis = 0;
   bp.rest = 0;
-  std::sort(bp.order.begin(), bp.order.end());
+  bp.order = bp.bounded;
 }
 
 }  // namespace saltus

@@ -24,8 +24,8 @@ struct BroadPhase {
   std::vector<int> candidates;  ///< numbers of pairs that can touch, ascending; by find_candidates
 
   std::vector<int> unbounded;  ///< half-spaces that are in a pair
-  std::vector<int>
-      order;     ///< bounded shapes in pairs, by lower end along `axis`; by find_candidates
+  std::vector<int> bounded;    ///< the other shapes that are in a pair, ascending
+  std::vector<int> order;      ///< the bounded ones by lower end along `axis`; by find_candidates
   int axis = 0;  ///< of the sweep: the one along which the shapes are spread; likewise
   int rest = 0;  ///< calls left in which the tree is used without a sweep; likewise
   BallTree tree;
