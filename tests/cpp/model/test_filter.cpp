@@ -29,8 +29,8 @@ ModelBuilder beads() {
 Names pair_names(const ModelBuilder& builder, bool of_floor = false) {
   const Model model = builder.build();
   Names names;
-  for (std::size_t i = 0; i < model->pairs.size(); ++i) {
-    const std::string name = model.pair_name(static_cast<int>(i));
+  for (int i = 0; i < model->pairs.size(); ++i) {
+    const std::string name = model.pair_name(i);
     if ((name.find("floor") != std::string::npos) == of_floor) names.push_back(name);
   }
   return names;
