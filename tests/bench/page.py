@@ -10,8 +10,8 @@ PAGE = """\
 # Speed
 
 What saltus costs, beside engines that solve the same equations of motion. The numbers on this page
-come from one run on one machine; the page is written by the program that measures them. To measure
-again, in a checkout:
+come from one machine, those of each section from one run; the page is written by the program that
+measures them. To measure again, in a checkout:
 
     sh tests/bench/run.sh                                # the tables below, for this machine
     sh tests/bench/run.sh --page python/docs/speed.md    # this page and its picture
