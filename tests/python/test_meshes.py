@@ -172,6 +172,17 @@ def test_command_line(robot):
     assert "the robot has not, z" in info("--srdf", str(srdf)).stderr
 
 
+def test_vertices_are_the_decimals_of_the_file(tmp_path):
+    """Single precision, as Assimp keeps it, would let a cube overlap its floor by 1.5e-9 m."""
+    corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.1)]
+    faces = ["1 2 4", "1 4 3", "5 7 8", "5 8 6", "1 5 6", "1 6 2", "3 4 8", "3 8 7", "1 3 7"]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {face}" for face in faces]
+    (tmp_path / "a.obj").write_text("\n".join(lines) + "\n")
+    (tmp_path / "cubes.urdf").write_text(urdf(MESH))
+    vertices = load(tmp_path / "cubes.urdf").shapes[0].shape.vertices
+    assert set(np.abs(vertices).ravel()) == {0.1}
+
+
 def test_runs_without_pairs_of_meshes_keep_their_model(robot, tmp_path):
     model = load(robot).without_collisions()
     run = saltus.simulate(model, duration=0.1, progress=False)

@@ -7,6 +7,7 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -59,6 +60,16 @@ void check_stl_is_whole(const fs::path& path, std::uintmax_t size) {
   }
 }
 
+/// The decimal number that a single-precision number was written as, most likely: 0.1 for the float
+/// next to 0.1, which is 1.5e-9 off. A cube of 0.2 m then stands at 0.1 m without an overlap.
+double as_written(float x) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+  double out = static_cast<double>(x);
+  std::from_chars(text.data(), end, out);
+  return out;
+}
+
 void add_vertices(const aiScene& scene, const aiNode& node, const Transform& above,
                   std::vector<Vec3>& vertices) {
   Transform own;
@@ -72,7 +83,7 @@ void add_vertices(const aiScene& scene, const aiNode& node, const Transform& abo
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
     for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
       const aiVector3D& v = mesh.mVertices[k];
-      const Vec3 p(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+      const Vec3 p(as_written(v.x), as_written(v.y), as_written(v.z));
       vertices.push_back(T.topLeftCorner<3, 3>() * p + T.topRightCorner<3, 1>());
     }
   }
