@@ -39,7 +39,7 @@ Gap
 Raises
 ------
 ModelError
-    Where these two kinds of shape have no gap function; see `gap_table`.
+    Where these two kinds of shape have no gap function, see `gap_table`, or a pose is not finite.
 )";
 
 constexpr auto gap_table_doc = R"(The pairs of shapes that have a gap function, by name.
@@ -154,6 +154,10 @@ Gap checked_gap(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_
   if (!has_gap(a, b)) {
     throw ModelError("no gap function between a " + shape_name(a) + " and a " + shape_name(b) +
                      "; gap_table() lists those there are");
+  }
+  for (const Pose* X : {&X_WA, &X_WB}) {
+    if (X->R.allFinite() && X->p.allFinite()) continue;
+    throw ModelError(std::string("pose ") + (X == &X_WA ? "X_WA" : "X_WB") + " is not finite");
   }
   return gap(a, X_WA, b, X_WB);
 }

@@ -56,6 +56,11 @@ radius : float
 Returns
 -------
 BodyInertia
+
+Raises
+------
+ModelError
+    Where the mass or a size is not finite and positive.
 )";
 
 constexpr auto solid_box_doc = R"(Inertia of a homogeneous box about its centre.
@@ -70,6 +75,11 @@ half : array_like, shape (3,)
 Returns
 -------
 BodyInertia
+
+Raises
+------
+ModelError
+    Where the mass or a size is not finite and positive.
 )";
 
 constexpr auto solid_cylinder_doc = R"(Inertia of a homogeneous cylinder along z about its centre.
@@ -84,6 +94,11 @@ radius, half_length : float
 Returns
 -------
 BodyInertia
+
+Raises
+------
+ModelError
+    Where the mass or a size is not finite and positive.
 )";
 
 std::string show(const BodyInertia& body) {

@@ -1663,7 +1663,7 @@ def gap(
     Raises
     ------
     ModelError
-        Where these two kinds of shape have no gap function; see `gap_table`.
+        Where these two kinds of shape have no gap function, see `gap_table`, or a pose is not finite.
     """
 
 def gap_table() -> list[tuple[str, str]]:
@@ -1888,6 +1888,11 @@ def solid_box(
     Returns
     -------
     BodyInertia
+
+    Raises
+    ------
+    ModelError
+        Where the mass or a size is not finite and positive.
     """
 
 def solid_cylinder(
@@ -1908,6 +1913,11 @@ def solid_cylinder(
     Returns
     -------
     BodyInertia
+
+    Raises
+    ------
+    ModelError
+        Where the mass or a size is not finite and positive.
     """
 
 def solid_sphere(
@@ -1927,6 +1937,11 @@ def solid_sphere(
     Returns
     -------
     BodyInertia
+
+    Raises
+    ------
+    ModelError
+        Where the mass or a size is not finite and positive.
     """
 
 def states(

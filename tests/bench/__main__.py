@@ -81,7 +81,10 @@ def measure(quick: bool, seconds: float, rounds: int) -> dict:
         "growth": flops.growth(rows),
         "impacts": impacts,
         "collisions": collisions.measure(
-            programs, seconds=0.002 if quick else seconds / 4, balls=10 if quick else 1000
+            programs,
+            seconds=0.002 if quick else seconds / 4,
+            balls=10 if quick else 1000,
+            rounds=rounds,
         ),
         "batch": batch.measure(
             programs.path("bench_scaling"),

@@ -6,11 +6,11 @@
 
 #include <iostream>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "clock.hpp"
+#include "poses.hpp"
 
 namespace {
 
@@ -20,18 +20,7 @@ using saltus::bench::time_of;
 
 constexpr int poses = 64;
 
-std::mt19937 engine(1);
-
-double uniform(double low, double high) {
-  return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
-}
-
-Vector3d direction() {
-  Vector3d x;
-  do x = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-  while (x.norm() > 1 || x.norm() < 0.1);
-  return x.normalized();
-}
+saltus::bench::RandomPoses random_poses;
 
 std::unique_ptr<coal::ShapeBase> example(const std::string& kind) {
   if (kind == "sphere") return std::make_unique<coal::Sphere>(0.3);
@@ -58,11 +47,12 @@ int main(int argc, char** argv) {
     for (std::size_t j = i; j < kinds.size(); ++j) {
       if (kinds[i] == "half_space" && kinds[j] == "half_space") continue;
       const auto a = example(kinds[i]), b = example(kinds[j]);
+      random_poses = {};
       std::vector<coal::Transform3s> X;
       for (int k = 0; k < poses; ++k) {
-        const double distance = uniform(0.5, 2);
-        const Eigen::AngleAxisd turn(uniform(-3, 3), direction());
-        X.emplace_back(turn.toRotationMatrix(), Vector3d(distance * direction()));
+        const double distance = random_poses.uniform(0.5, 2);
+        const Eigen::Matrix3d R = random_poses.rotation();
+        X.emplace_back(R, Vector3d(distance * random_poses.direction()));
       }
       const coal::Transform3s identity = coal::Transform3s::Identity();
       coal::DistanceRequest request(true, true);

@@ -9,11 +9,11 @@
 
 #include <cmath>
 #include <iostream>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "clock.hpp"
+#include "poses.hpp"
 
 namespace {
 
@@ -23,27 +23,16 @@ using bench::time_of;
 
 constexpr int poses = 64;
 
-std::mt19937 engine(1);
-
-double uniform(double low, double high) {
-  return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
-}
-
-Vec3 direction() {
-  Vec3 x;
-  do x = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
-  while (x.norm() > 1 || x.norm() < 0.1);
-  return x.normalized();
-}
+bench::RandomPoses random_poses;
 
 Pose pose_at(double distance) {
-  const Eigen::AngleAxisd turn(uniform(-3, 3), direction());
-  return {turn.toRotationMatrix(), distance * direction()};
+  const Mat3 R = random_poses.rotation();
+  return {R, distance * random_poses.direction()};
 }
 
 Convex ball_hull(int points) {
   std::vector<Vec3> cloud;
-  for (int k = 0; k < points; ++k) cloud.push_back(0.3 * direction());
+  for (int k = 0; k < points; ++k) cloud.push_back(0.3 * random_poses.direction());
   return {std::make_shared<const Hull>(convex_hull(cloud))};
 }
 
@@ -62,8 +51,9 @@ void print_gaps(double budget) {
   bool first = true;
   for (const auto& [kind_a, kind_b] : gap_table()) {
     const Shape a = example(kind_a), b = example(kind_b);
+    random_poses = {};  // as in bench_coal.cpp
     std::vector<Pose> X;
-    for (int k = 0; k < poses; ++k) X.push_back(pose_at(uniform(0.5, 2)));
+    for (int k = 0; k < poses; ++k) X.push_back(pose_at(random_poses.uniform(0.5, 2)));
     double sum = 0;
     const Time time = time_of(budget, [&] {
       for (const Pose& X_WA : X) sum += gap(a, X_WA, b, {}).phi;
@@ -133,7 +123,7 @@ Time broad_phase(double budget, int n, int dimensions) {
   std::vector<PlacedShape> shapes;
   for (int i = 0; i < n; ++i) {
     Pose X_PJ = pose_at(1);
-    for (int k = 0; k < 3; ++k) X_PJ.p[k] = k < dimensions ? uniform(0, side) : 0;
+    for (int k = 0; k < 3; ++k) X_PJ.p[k] = k < dimensions ? random_poses.uniform(0, side) : 0;
     add_joint(tree, -1, {Joint::Kind::prismatic, 0}, X_PJ, {i, 1, 0});
     PlacedShape shape;
     shape.shape = Sphere{0.5};
@@ -145,7 +135,7 @@ Time broad_phase(double budget, int n, int dimensions) {
   const PairTable pairs(shapes, rules);
   BroadPhase bp(tree, shapes, pairs);
   VecX dq(n);
-  for (double& x : dq) x = uniform(-0.02, 0.02);
+  for (double& x : dq) x = random_poses.uniform(-0.02, 0.02);
   Kinematics kin(tree);
   std::size_t call = 0;
   return timed_after(

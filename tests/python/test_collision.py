@@ -105,3 +105,11 @@ def test_a_jammed_ball_is_told():
         saltus.resolve_impact(np.eye(1), walls, [1.0], max_impulses=50)
     assert isinstance(error.value, saltus.StepError)
     assert error.value.iterations == 50
+
+
+def test_a_pose_that_is_not_finite_is_named():
+    ball, nowhere = saltus.Sphere(1.0), saltus.Pose((0.0, np.nan, 0.0))
+    with pytest.raises(saltus.ModelError, match="X_WA is not finite"):
+        saltus.gap(ball, nowhere, ball, saltus.Pose())
+    with pytest.raises(saltus.ModelError, match="X_WB is not finite"):
+        saltus.gap(ball, saltus.Pose(), ball, nowhere)

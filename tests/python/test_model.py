@@ -259,3 +259,22 @@ def test_energies():
     assert energies.potential == pytest.approx(model.potential_energy(state.q), rel=1e-13)
     assert energies.shadow != energies.kinetic + energies.potential
     assert energies.shadow == pytest.approx(energies.kinetic + energies.potential, rel=1e-2)
+
+
+def test_inertia_of_solids():
+    box, pole = saltus.solid_box(3.0, (1.0, 2.0, 3.0)), saltus.solid_cylinder(12.0, 2.0, 0.5)
+    np.testing.assert_allclose(np.diag(box.I_J), (13.0, 10.0, 5.0), rtol=1e-15)  # (y^2 + z^2) m/3
+    # along r^2 m/2, across r^2 m/4 + l^2 m/3
+    np.testing.assert_allclose(np.diag(pole.I_J), (13.0, 13.0, 24.0), rtol=1e-15)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+def test_solids_of_no_size_or_mass_are_refused(bad):
+    for make in (
+        lambda: saltus.solid_sphere(1.0, bad),
+        lambda: saltus.solid_sphere(bad, 1.0),
+        lambda: saltus.solid_box(1.0, (1.0, bad, 1.0)),
+        lambda: saltus.solid_cylinder(1.0, 1.0, bad),
+    ):
+        with pytest.raises(saltus.ModelError, match=f"a solid .*{bad:g}.*finite and positive"):
+            make()

@@ -115,14 +115,6 @@ Gap corner_on_faces(const Pair& pair, const Solid& solid, const Pose& X_WA, cons
   return sphere_gap(std::get<Sphere>(pair.on_a.shape), X_WA, X_WB, {best.e, best.n, flat});
 }
 
-}  // namespace
-
-int part_count(const Shape& a, const Shape& b) {
-  return goes_second(a, b) ? counts_of(b, a).all() : counts_of(a, b).all();
-}
-
-namespace {
-
 Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b,
              const Parts& parts) {
   Pair pair;
@@ -135,13 +127,16 @@ Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, in
   pair.out_b = parts.b.out;
   pair.inward = parts.a.inward;
   pair.chain = chain_between(tree, pair.on_b.joint, pair.on_a.joint);
-  // epsilon_phi: 1e-10 of the smaller shape is far above the rounding of positions (1e-16 of the
-  // scene) and far below what anybody can see
-  pair.touch = 1e-10 * std::min(feature_size(shapes[a].shape), feature_size(shapes[b].shape));
+  pair.touch =
+      relative_touch * std::min(feature_size(shapes[a].shape), feature_size(shapes[b].shape));
   return pair;
 }
 
 }  // namespace
+
+int part_count(const Shape& a, const Shape& b) {
+  return goes_second(a, b) ? counts_of(b, a).all() : counts_of(a, b).all();
+}
 
 Pair make_solid_pair(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b) {
   if (goes_second(shapes[a].shape, shapes[b].shape)) std::swap(a, b);
@@ -186,12 +181,12 @@ Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
 bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
   if (pair.kind == PairKind::crossing) return !is_crossing(pair, X_WA, X_WB, gap);
   if (!pair.skips_corners) return false;
-  if (std::holds_alternative<HalfSpace>(pair.on_b.shape)) {  // the rim of a cylinder that stands
+  if (is<HalfSpace>(pair.on_b.shape)) {  // the rim of a cylinder that stands
     constexpr double upright = 1e-10;
     return X_WA.R.col(2).cross(gap.n_W).norm() < upright;
   }
   const auto on_corner = [](const Shape& shape, const Patch& patch) {
-    return patch.dim == 0 && !std::holds_alternative<Cylinder>(shape);
+    return patch.dim == 0 && !is<Cylinder>(shape);
   };
   return on_corner(pair.on_a.shape, gap.a) || on_corner(pair.on_b.shape, gap.b);
 }

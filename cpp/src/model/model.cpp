@@ -9,6 +9,8 @@
 namespace saltus {
 namespace {
 
+constexpr double most_dense = 134e6;  ///< numbers in 1 GiB
+
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
   std::vector<std::string> names;
@@ -164,10 +166,6 @@ Pose Model::X_WL(const VecRef& q, int link) const {
   set_configuration(data_->tree, q, kin);
   return kin.X_WJ(data_->tree, l.joint) * l.X_JL;
 }
-
-namespace {
-constexpr double most_dense = 134e6;  ///< numbers in 1 GiB
-}  // namespace
 
 Gaps Model::gaps(const VecRef& q) const {
   check_vector(q, n_q(), "q");

@@ -97,7 +97,7 @@ Node::Node(const ModelData& model)
   for (VecX* x : {&q, &p, &v, &dq, &dense, &column, &launch.n}) x->setZero(n);
   for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
   for (const PlacedShape& shape : model.shapes) {
-    const double touch = 1e-10 * feature_size(shape.shape);
+    const double touch = relative_touch * feature_size(shape.shape);
     if (std::isfinite(touch)) most_touch = std::max(most_touch, touch);
   }
   const std::size_t reserved =

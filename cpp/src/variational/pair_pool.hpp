@@ -33,19 +33,20 @@ class PairPool {
   void clear();  ///< no effect where all are made
 
  private:
-  void add(const ModelData& model, int number);
-
-  bool all_;
-  std::deque<Pair> pair_, solid_;  ///< at addresses that stay
-  std::vector<int> solid_of_, number_;
-  void grow_table();
-  std::size_t slot_of(int pair) const;
-
-  /// Open addressing: the place of a number is near its hash, -1 marks a free slot. A power of two
-  /// of slots, half of them free at least. Unused where all are made.
   struct Entry {
     int number, place;
   };
+
+  void add(const ModelData& model, int number);
+  std::size_t slot_of(int pair) const;
+  void grow_table();
+
+  bool all_;
+  std::deque<Pair> pair_, solid_;  ///< at addresses that stay
+  std::vector<int> number_;        ///< (places)
+  std::vector<int> solid_of_;      ///< (places) index in solid_, or -1
+  /// Open addressing: the place of a number is near its hash, -1 marks a free slot. A power of two
+  /// of slots, half of them free at least. Unused where all are made.
   std::vector<Entry> table_;
 };
 

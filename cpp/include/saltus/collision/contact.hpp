@@ -42,6 +42,10 @@ enum class PairKind {
   crossing,  ///< that of two edges, where they cross; nothing where they do not
 };
 
+/// epsilon_phi by the size of the smaller shape: far above the rounding of positions (1e-16 of the
+/// scene) and far below what anybody can see.
+inline constexpr double relative_touch = 1e-10;
+
 /// One gap that is watched: two shapes, or a part of one and the other.
 struct Pair {
   int a = -1, b = -1;  ///< indices of shapes

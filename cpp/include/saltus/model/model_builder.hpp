@@ -111,6 +111,7 @@ class SALTUS_EXPORT ModelBuilder {
 SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
 
 /// Inertia of a homogeneous ball about its centre, a frequent need.
+/// @throws ModelError where the mass or a size is not finite and positive; so the other solids.
 SALTUS_EXPORT BodyInertia solid_sphere(double mass, double radius);
 /// The same of a box and of a cylinder along z, by the sizes of their shapes.
 SALTUS_EXPORT BodyInertia solid_box(double mass, const Vec3& half);
