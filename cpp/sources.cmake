@@ -55,6 +55,7 @@ set(SALTUS_SOURCES
   cpp/src/model/assembly.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
+  cpp/src/model/materials.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp

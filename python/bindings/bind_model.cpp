@@ -149,6 +149,8 @@ void bind_lists(py::class_<Model>& c) {
       .def("pair", &Model::pair, py::arg("pair"),
            "The pair of this number, from 0 to `n_pairs` - 1.")
       .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
+      .def("contact_properties", &Model::contact_properties, py::arg("pair"),
+           "ContactProperties of the materials that meet in the pair of this number.")
       .def("pair_kinds", &Model::pair_kinds,
            "How many pairs there are of each two kinds of shape, by their names in alphabetical "
            "order.")
@@ -166,9 +168,32 @@ void bind_lists(py::class_<Model>& c) {
       });
 }
 
+constexpr auto contact_properties_doc = R"(What happens where two materials meet.
+
+Attributes
+----------
+restitution : float
+    e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
+friction : float
+    Coulomb's mu >= 0.
+)";
+
+void bind_contact_properties(py::module_& m) {
+  using P = ContactProperties;
+  py::class_<P>(m, "ContactProperties", contact_properties_doc)
+      .def_readonly("restitution", &P::restitution)
+      .def_readonly("friction", &P::friction)
+      .def("__repr__", [](const P& p) {
+        return "ContactProperties(restitution=" +
+               py::repr(py::float_(p.restitution)).cast<std::string>() +
+               ", friction=" + py::repr(py::float_(p.friction)).cast<std::string>() + ")";
+      });
+}
+
 }  // namespace
 
 void bind_model(py::module_& m) {
+  bind_contact_properties(m);
   bind_state(m);
   bind_parts(m);
   bind_tree_solution(m);

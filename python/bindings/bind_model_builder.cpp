@@ -82,6 +82,25 @@ void bind_model_builder(py::module_& m) {
             return builder.set_adjacent_links(to_enum(adjacent, "adjacent"));
           },
           self, docs::set_adjacent_links, py::arg("adjacent"))
+      .def("set_material", &ModelBuilder::set_material, self, docs::set_material, py::arg("link"),
+           py::arg("material"))
+      .def(
+          "set_contact",
+          [](ModelBuilder& builder, const std::string& a, const std::string& b, double restitution,
+             double friction) -> ModelBuilder& {
+            return builder.set_contact(a, b, {restitution, friction});
+          },
+          self, docs::set_contact, py::arg("material_a"), py::arg("material_b"), py::kw_only(),
+          py::arg("restitution") = ContactProperties{}.restitution,
+          py::arg("friction") = ContactProperties{}.friction)
+      .def(
+          "set_default_contact",
+          [](ModelBuilder& builder, double restitution, double friction) -> ModelBuilder& {
+            return builder.set_default_contact({restitution, friction});
+          },
+          self, docs::set_default_contact, py::kw_only(),
+          py::arg("restitution") = ContactProperties{}.restitution,
+          py::arg("friction") = ContactProperties{}.friction)
       .def("add_warning", &ModelBuilder::add_warning, self,
            "Adds to the model's `warnings`; returns the builder.", py::arg("text"))
       .def_property_readonly("warnings", &ModelBuilder::warnings)

@@ -169,6 +169,39 @@ constexpr auto adjacent_links =
 Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
 )";
 
+constexpr auto set_material = R"(Says what all shapes of a link are made of; it says nothing by itself.
+
+Parameters
+----------
+link : str
+    The root link's material is that of its half-spaces too.
+material : str
+    Any name; `set_contact` says what happens between two.
+)";
+
+constexpr auto set_contact = R"(Says what happens where two materials meet; the last word holds.
+
+Parameters
+----------
+material_a, material_b : str
+    In any order; they may be the same.
+restitution : float
+    e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
+friction : float
+    Coulomb's mu >= 0: the tangential force is at most mu times the normal one.
+
+Raises
+------
+ModelError
+    On values out of their range; `build` raises it on materials that no link has.
+)";
+
+constexpr auto set_default_contact =
+    R"(Says what happens between all shapes that no `set_contact` is said of.
+
+Elastic and without friction otherwise. Parameters as in `set_contact`.
+)";
+
 constexpr auto build = R"(Checks the whole and freezes it.
 
 Returns

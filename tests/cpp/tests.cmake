@@ -37,6 +37,7 @@ set(SALTUS_TEST_model
   model/test_builder_errors.cpp
   model/test_filter.cpp
   model/test_golden.cpp
+  model/test_materials.cpp
   model/test_model.cpp
   model/test_pairs.cpp
   model/test_solvers.cpp
@@ -60,6 +61,7 @@ set(SALTUS_TEST_urdf
   urdf/test_fuzz.cpp
   urdf/test_joints.cpp
   urdf/test_links.cpp
+  urdf/test_materials.cpp
   urdf/test_meshes.cpp
   urdf/test_model_files.cpp
   urdf/test_number_errors.cpp

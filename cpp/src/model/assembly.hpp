@@ -57,6 +57,9 @@ class Assembly {
   void add_filter();  // exclusions of links and of groups
   std::vector<std::pair<int, int>> adjacent_links() const;
 
+  // materials.cpp
+  void add_materials();
+
   // pairs.cpp
   void add_shapes();
   void add_pairs();

@@ -39,6 +39,11 @@ VecX from_names(const Model& model, const std::map<std::string, double>& values)
   return x;
 }
 
+void check_pair(int pair, int pairs) {
+  if (pair >= 0 && pair < pairs) return;
+  throw ModelError("no pair " + std::to_string(pair) + "; the model has " + std::to_string(pairs));
+}
+
 }  // namespace
 
 std::string list_names(const std::vector<std::string>& names) {
@@ -74,10 +79,7 @@ std::string Model::pair_name(int pair) const {
 }
 
 Pair Model::pair(int pair) const {
-  if (pair < 0 || pair >= data_->pairs.size()) {
-    throw ModelError("no pair " + std::to_string(pair) + "; the model has " +
-                     std::to_string(data_->pairs.size()));
-  }
+  check_pair(pair, data_->pairs.size());
   const PairTable::Key key = data_->pairs.key(pair);
   return make_pair(data_->tree, data_->shapes, key.a, key.b, key.part);
 }
@@ -103,6 +105,12 @@ std::vector<TreeSolution> Model::solvers() const {
     out.push_back({solver, group.trees, group.positions, group.depth});
   }
   return out;
+}
+
+ContactProperties Model::contact_properties(int pair) const {
+  check_pair(pair, data_->pairs.size());
+  const PairTable::Key key = data_->pairs.key(pair);
+  return data_->materials.between(key.a, key.b);
 }
 
 State Model::state(const std::map<std::string, double>& q, const std::map<std::string, double>& v,

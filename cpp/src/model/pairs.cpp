@@ -17,6 +17,7 @@ void Assembly::add_shapes() {
     m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});
   }
   add_filter();
+  add_materials();
 }
 
 // By link, so that the few shapes of two links are looked at, not all pairs of shapes.

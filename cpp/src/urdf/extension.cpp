@@ -1,8 +1,10 @@
 #include "urdf/extension.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "urdf/attributes.hpp"
+#include "urdf/numbers.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -73,26 +75,69 @@ void add_exclusion(const Document& document, const XMLElement& element, ModelBui
   builder.add_group_exclusion(attribute(element, first), attribute(element, second));
 }
 
-using GroupOf = std::map<std::string, std::string>;  // link -> group
+using NameOf = std::map<std::string, std::string>;  // link -> group or material
 
-void add_group(const Document& document, const XMLElement& element, GroupOf& group_of,
-               ModelBuilder& builder) {
-  const std::string name = attribute(element, "name");
-  const Owner owner{"group", name};
-  if (document.find("group", name) != &element) {
-    document.fail(element, owner, "has the name of another group");
-  }
-  std::istringstream links(attribute(element, "links"));
-  for (std::string of; links >> of;) {
+/// The links that a group or a material lists; none is in two of a kind.
+std::vector<std::string> listed_links(const Document& document, const XMLElement& element,
+                                      NameOf& name_of) {
+  const std::string kind = element.Name(), name = attribute(element, "name");
+  const Owner owner{kind, name};
+  std::vector<std::string> links;
+  std::istringstream words(attribute(element, "links"));
+  for (std::string of; words >> of;) {
     check_link(document, element, owner, of);
-    const auto [first, is_new] = group_of.emplace(of, name);
+    const auto [first, is_new] = name_of.emplace(of, name);
     if (!is_new) {
       document.fail(element, owner,
-                    "names link " + in_quotes(of) + ", which is in group " +
-                        in_quotes(first->second) + " already; a link is in one group at most");
+                    "names link " + in_quotes(of) + ", which is in " + kind + " " +
+                        in_quotes(first->second) + " already; a link is in one " + kind +
+                        " at most");
     }
+    links.push_back(of);
+  }
+  return links;
+}
+
+void add_group(const Document& document, const XMLElement& element, NameOf& group_of,
+               ModelBuilder& builder) {
+  const std::string name = attribute(element, "name");
+  if (document.find("group", name) != &element) {
+    document.fail(element, {"group", name}, "has the name of another group");
+  }
+  for (const std::string& of : listed_links(document, element, group_of)) {
     builder.set_group(of, name);
   }
+}
+
+/// Between two materials, or of all pairs that nothing else is said of.
+void set_contact(const Document& document, const XMLElement& element, ModelBuilder& builder) {
+  const Owner owner{"contact", ""};
+  const std::string a = attribute(element, "material1"), b = attribute(element, "material2");
+  const ContactProperties properties{number(element, "restitution", 1),
+                                     number(element, "friction", 0)};
+  if (!(properties.restitution >= 0 && properties.restitution <= 1)) {
+    document.fail(element, owner,
+                  "has restitution " + print_number(properties.restitution) + "; it is in [0, 1]");
+  }
+  if (!(properties.friction >= 0)) {
+    document.fail(element, owner,
+                  "has friction " + print_number(properties.friction) + "; it is not negative");
+  }
+  if (a.empty() != b.empty()) {
+    document.fail(element, owner, "names one material; it names two, or none for all other pairs");
+  }
+  if (a.empty()) {
+    builder.set_default_contact(properties);
+    return;
+  }
+  const std::vector<std::string> known = names_in_blocks(document, "material");
+  for (const std::string& name : {a, b}) {
+    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    document.fail(element, owner,
+                  "names material " + in_quotes(name) + ", which does not exist; materials are " +
+                      list_names(known));
+  }
+  builder.set_contact(a, b, properties);
 }
 
 void set_adjacent_links(const Document& document, const XMLElement& element,
@@ -105,8 +150,11 @@ void set_adjacent_links(const Document& document, const XMLElement& element,
   builder.set_adjacent_links(gaps == "watched" ? AdjacentLinks::watched : AdjacentLinks::excluded);
 }
 
-void add(const Document& document, const XMLElement& element, GroupOf& group_of,
-         ModelBuilder& builder) {
+struct NamesOf {
+  NameOf group, material;
+};
+
+void add(const Document& document, const XMLElement& element, NamesOf& of, ModelBuilder& builder) {
   const std::string kind = element.Name();
   if (kind == "half_space") {
     add_half_space(document, element, builder);
@@ -122,17 +170,23 @@ void add(const Document& document, const XMLElement& element, GroupOf& group_of,
   } else if (kind == "adjacent_links") {
     set_adjacent_links(document, element, builder);
   } else if (kind == "group") {
-    add_group(document, element, group_of, builder);
+    add_group(document, element, of.group, builder);
+  } else if (kind == "material") {
+    for (const std::string& name : listed_links(document, element, of.material)) {
+      builder.set_material(name, attribute(element, "name"));
+    }
+  } else if (kind == "contact") {
+    set_contact(document, element, builder);
   }
 }
 
 }  // namespace
 
 void add_extension(const Document& document, ModelBuilder& builder) {
-  GroupOf group_of;
+  NamesOf of;
   for (const XMLElement* block : document.all("saltus")) {
     for (auto e = block->FirstChildElement(); e; e = e->NextSiblingElement()) {
-      add(document, *e, group_of, builder);
+      add(document, *e, of, builder);
     }
   }
 }

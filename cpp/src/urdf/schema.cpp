@@ -99,6 +99,11 @@ ElementRule extension() {
             .texts = {{"link1"}, {"link2"}, {"group1"}, {"group2"}},
             .strict = true},
            {.name = "group", .texts = {{"name", required}, {"links", required}}, .strict = true},
+           {.name = "material", .texts = {{"name", required}, {"links", required}}, .strict = true},
+           {.name = "contact",
+            .numbers = {{"restitution"}, {"friction"}},
+            .texts = {{"material1"}, {"material2"}},
+            .strict = true},
            {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}},
       .strict = true};
 }

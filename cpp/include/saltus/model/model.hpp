@@ -9,6 +9,7 @@
 #include "saltus/collision/pair_table.hpp"
 #include "saltus/error.hpp"
 #include "saltus/lagrangian/partials.hpp"
+#include "saltus/model/materials.hpp"
 #include "saltus/model/state.hpp"
 
 namespace saltus {
@@ -70,6 +71,7 @@ struct ModelData {
   std::vector<Coordinate> coordinates;  ///< (n_q)
   std::vector<PlacedShape> shapes;
   PairTable pairs;
+  MaterialTable materials;
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
 };
@@ -111,6 +113,7 @@ class SALTUS_EXPORT Model {
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are
   Pair pair(int pair) const;                      ///< what the pair of this number is of
   std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
+  ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
   std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees

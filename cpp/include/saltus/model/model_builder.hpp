@@ -72,6 +72,13 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_group_exclusion(const std::string& group_a, const std::string& group_b);
   /// Excluded unless said otherwise. What is welded together is never watched.
   ModelBuilder& set_adjacent_links(AdjacentLinks adjacent);
+  /// What all shapes of a link are made of; half-spaces belong to the root link.
+  ModelBuilder& set_material(const std::string& link, const std::string& material);
+  /// Of all pairs that no set_contact is said of. Elastic and without friction otherwise.
+  ModelBuilder& set_default_contact(const ContactProperties& properties);
+  /// What happens between two materials, in any order; the last word holds.
+  ModelBuilder& set_contact(const std::string& material_a, const std::string& material_b,
+                            const ContactProperties& properties);
   ModelBuilder& add_warning(std::string text);
 
   void check() const;  ///< the checks of build() alone
@@ -93,6 +100,11 @@ class SALTUS_EXPORT ModelBuilder {
     std::map<std::string, std::string> group_of;  // link -> group
     AdjacentLinks adjacent = AdjacentLinks::excluded;
   };
+  struct Materials {
+    std::map<std::string, std::string> of_link;
+    std::map<std::pair<std::string, std::string>, ContactProperties> contact;
+    ContactProperties standard;
+  };
   std::string name_, root_, source_;
   Vec3 gravity_ = Vec3(0, 0, -9.81);
   TreeSolver solver_ = TreeSolver::automatic;
@@ -100,6 +112,7 @@ class SALTUS_EXPORT ModelBuilder {
   std::vector<JointSpec> joints_;
   std::vector<ShapeSpec> shapes_;
   Filter filter_;
+  Materials materials_;
   std::vector<std::string> warnings_;
 
   friend class Assembly;  // build()'s worker, model/assembly.cpp
