@@ -66,6 +66,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/closing_arc.cpp
+  cpp/src/variational/contact_problem.cpp
   cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
   cpp/src/variational/flight.cpp
@@ -116,6 +117,7 @@ set(SALTUS_BINDING_SOURCES
   # urdf
   python/bindings/bind_urdf.cpp
   # variational
+  python/bindings/bind_contact_space.cpp
   python/bindings/bind_stepper.cpp
   python/bindings/bind_variational.cpp
   # rollout

@@ -28,6 +28,7 @@ void bind_model_builder(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
+void bind_contact_space(py::module_& m);
 void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
 void bind_batch(py::module_& m);
@@ -41,6 +42,11 @@ struct Coordinates {
 /// The array (n_q) that is meant; `what` names it in messages.
 /// @throws ModelError on a name that the model has not, and on what are no numbers or not (n_q).
 VecX to_vector(const Coordinates& x, const Model& model, const char* what);
+
+/// What a user gives for e: one number for all contacts, or one for each.
+struct Restitution {
+  py::object value;
+};
 
 /// An argument that must be a T and may be anything: whoever takes it says what is wrong with it,
 /// where pybind11 would print the signatures that there are.
@@ -91,6 +97,16 @@ struct type_caster<saltus::bindings::Coordinates> {
   PYBIND11_TYPE_CASTER(
       saltus::bindings::Coordinates,
       const_name("collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+template <>
+struct type_caster<saltus::bindings::Restitution> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::Restitution,
+                       const_name("typing.SupportsFloat | numpy.typing.ArrayLike"));
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

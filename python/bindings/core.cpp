@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, m) {
   bind_motion(m);
   bind_urdf(m);
   bind_variational(m);
+  bind_contact_space(m);
   bind_stepper(m);
   bind_rollout(m);
   bind_batch(m);

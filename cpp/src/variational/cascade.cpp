@@ -1,8 +1,9 @@
 #include "saltus/variational/cascade.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <sstream>
+
+#include "variational/contact_problem.hpp"
 
 namespace saltus {
 namespace {
@@ -49,39 +50,10 @@ ContactMatrix without_zeros(const Eigen::Ref<const MatX>& G) {
   return out;
 }
 
-void check_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
-                   const VecRef& v, const CascadeOptions& options) {
-  std::ostringstream text;
-  const auto n = v.size();
-  if (M.rows() != n || M.cols() != n) {
-    text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << n << " entries, so M is ("
-         << n << ", " << n << ")";
-  } else if (N.cols() != n && N.rows() > 0) {
-    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << n
-         << " entries, so N is (contacts, " << n << "), a row a contact";
-  } else if (!M.allFinite() || !N.allFinite() || !v.allFinite()) {
-    text << "M, N or v holds a value that is not finite";
-  } else if ((M - M.transpose()).norm() > 1e-12 * M.norm()) {
-    text << "M is not symmetric: it differs from its transpose by " << (M - M.transpose()).norm();
-  } else if (!(options.restitution >= 0 && options.restitution <= 1)) {
-    text << "restitution " << options.restitution << " is outside [0, 1]";
-  } else if (options.max_impulses < 1) {
-    text << "max_impulses " << options.max_impulses << " is less than 1";
-  }
-  if (!text.str().empty()) throw ModelError(text.str());
-}
-
-void check_rows(const Eigen::Ref<const MatX>& N) {
-  for (int i = 0; i < N.rows(); ++i) {
-    if (N.row(i).norm() > 0) continue;
-    throw ModelError("row " + std::to_string(i) + " of N is zero: no normal");
-  }
-}
-
 }  // namespace
 
 bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
-             const CascadeOptions& options, CascadeScratch& scratch,
+             const VecRef& restitution, const CascadeOptions& options, CascadeScratch& scratch,
              std::vector<Impulse>& impulses) {
   const int m = G.size();
   if (m == 0) return true;
@@ -94,8 +66,8 @@ bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
     const int i = scratch.winner[1];
     if (!(scratch.key[i] < 0)) return true;
     if (count == options.max_impulses) return false;
-    const double lambda = -(1 + options.restitution) * u[i] / G.diagonal[i];
-    const double u_after = -options.restitution * u[i];  // exact, without the rounding of G lambda
+    const double lambda = -(1 + restitution[i]) * u[i] / G.diagonal[i];
+    const double u_after = -restitution[i] * u[i];  // exact, without the rounding of G lambda
     for (int k = G.start[i]; k < G.start[i + 1]; ++k) {
       const int j = G.column[k];
       u[j] = j == i ? u_after : u[j] + G.value[k] * lambda;
@@ -107,35 +79,36 @@ bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
 }
 
 bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
-             const CascadeOptions& options, std::vector<Impulse>& impulses) {
+             const VecRef& restitution, const CascadeOptions& options,
+             std::vector<Impulse>& impulses) {
   CascadeScratch scratch;
-  return cascade(without_zeros(G), u, rest, options, scratch, impulses);
+  return cascade(without_zeros(G), u, rest, restitution, options, scratch, impulses);
 }
 
 ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
-                             const VecRef& v, const CascadeOptions& options) {
-  check_problem(M, N, v, options);
-  check_rows(N);
-  const Eigen::LLT<Eigen::MatrixXd> llt(M);
-  if (llt.info() != Eigen::Success) throw ModelError("M is not positive definite");
+                             const VecRef& v, const VecRef& restitution,
+                             const CascadeOptions& options) {
+  if (options.max_impulses < 1) {
+    throw ModelError("max_impulses " + std::to_string(options.max_impulses) + " is less than 1");
+  }
+  ContactProblem problem = contact_problem(M, N, v, restitution);
   ImpactOutcome out{v, {}};
-  if (N.rows() == 0) return out;
-  const Eigen::MatrixXd columns = llt.solve(N.transpose());  // M^-1 n_i
-  const MatX G = N * columns;
-  VecX u = N * v;
-  // 1e-13 of the greatest rate that this kinetic energy allows: the rounding of u
-  const double speed = std::sqrt(std::max(0.0, v.dot(M * v)));
-  const VecX rest = 1e-13 * speed * G.diagonal().array().sqrt();
-  if (!cascade(G, u, rest, options, out.impulses)) {
+  VecX& u = problem.u;
+  if (!cascade(problem.G, u, problem.rest, restitution, options, out.impulses)) {
     std::ostringstream text;
     text << "the impact does not end within " << options.max_impulses
          << " impulses: bodies jammed between others, or max_impulses is too small";
     throw JammedError(text.str(), 0, u.minCoeff(), options.max_impulses);
   }
   for (const Impulse& impulse : out.impulses) {
-    out.v += columns.col(impulse.pair) * impulse.lambda;
+    out.v += problem.columns.col(impulse.pair) * impulse.lambda;
   }
   return out;
+}
+
+ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
+                             const VecRef& v, double restitution, const CascadeOptions& options) {
+  return resolve_impact(M, N, v, VecX(VecX::Constant(N.rows(), restitution)), options);
 }
 
 }  // namespace saltus

@@ -59,6 +59,7 @@ void set_G(const ModelData& model, Node& node) {
   if (node.u.size() < m) {
     node.u.resize(m);
     node.rest.resize(m);
+    node.restitution.setOnes(m);
   }
   for (int i = 0; i < m; ++i) {
     Contact& c = node.contacts[i];
@@ -114,6 +115,7 @@ Node::Node(const ModelData& model)
   impulses.reserve(impulses_reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
+  restitution.setOnes(static_cast<Eigen::Index>(reserved));
 }
 
 bool impact_pending(const Node& node) {
@@ -169,8 +171,8 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
   node.impulses.clear();
   CascadeOptions cascade_options;
   cascade_options.max_impulses = options.max_impulses;
-  if (!cascade(node.G, node.u.head(m), node.rest.head(m), cascade_options, node.cascade,
-               node.impulses)) {
+  if (!cascade(node.G, node.u.head(m), node.rest.head(m), node.restitution.head(m), cascade_options,
+               node.cascade, node.impulses)) {
     return false;
   }
 

@@ -58,7 +58,7 @@ struct Node {
   PackedMatrix M;
   BroadPhase broad;
   TreeCoordinates trees;
-  VecX dq, u, rest, column;
+  VecX dq, u, rest, restitution, column;
   VecX dense;  ///< (n_q) zero between uses
   ContactMatrix G;
   CascadeScratch cascade;

@@ -28,8 +28,10 @@ MatX line(int balls) {
   return N;
 }
 
-ImpactOutcome in_line(const VecX& masses, const VecX& v, const CascadeOptions& options = {}) {
-  return resolve_impact(MatX(masses.asDiagonal()), line(static_cast<int>(v.size())), v, options);
+ImpactOutcome in_line(const VecX& masses, const VecX& v, double restitution = 1,
+                      const CascadeOptions& options = {}) {
+  return resolve_impact(MatX(masses.asDiagonal()), line(static_cast<int>(v.size())), v, restitution,
+                        options);
 }
 
 void expect_near(const VecX& actual, const VecX& expected, double tolerance) {
@@ -75,7 +77,7 @@ TEST(ResolveImpact, EqualBallsComeOutSortedInAnyOrder) {
     VecX sorted = v;
     std::sort(sorted.begin(), sorted.end());
     for (const ImpactOrder order : {ImpactOrder::fastest, ImpactOrder::index}) {
-      const ImpactOutcome out = in_line(VecX::Ones(balls), v, {.order = order});
+      const ImpactOutcome out = in_line(VecX::Ones(balls), v, 1, {.order = order});
       expect_near(out.v, sorted, 1e-14);  // at most 28 impulses, each rounding by 1e-16
       EXPECT_EQ(out.impulses.size(), static_cast<std::size_t>(inversions(v)));
       for (const Impulse& impulse : out.impulses) EXPECT_GT(impulse.lambda, 0);
@@ -157,7 +159,8 @@ TEST(ResolveImpact, CoxeterGroupsTakeTheirLongestElement) {
     for (const ImpactOrder order : {ImpactOrder::fastest, ImpactOrder::index}) {
       VecX u = -VecX::LinSpaced(c.rank, 1, 1.7);  // from minus the interior of the cone
       std::vector<Impulse> impulses;
-      ASSERT_TRUE(cascade(G, u, VecX::Constant(c.rank, 1e-12), {.order = order}, impulses));
+      ASSERT_TRUE(cascade(G, u, VecX::Constant(c.rank, 1e-12), VecX::Ones(c.rank), {.order = order},
+                          impulses));
       EXPECT_EQ(impulses.size(), static_cast<std::size_t>(c.impulses)) << c.name;
       EXPECT_GT(u.minCoeff(), 0) << c.name;
     }
@@ -180,11 +183,28 @@ TEST(ResolveImpact, BernoullisProblemGoesByTheOrder) {
 }
 
 TEST(ResolveImpact, Restitution) {
-  const auto out = in_line(VecX::Ones(3), vec({1, 0, -1}), {.restitution = .5});
+  const auto out = in_line(VecX::Ones(3), vec({1, 0, -1}), .5);
   expect_near(out.v, vec({-.359375, .046875, .3125}), 1e-15);
   EXPECT_EQ(out.impulses.size(), 3u);
-  expect_near(in_line(VecX::Ones(3), vec({1, 0, -1}), {.restitution = .9}).v,
-              vec({-.854875, .002375, .8525}), 1e-15);
+  expect_near(in_line(VecX::Ones(3), vec({1, 0, -1}), .9).v, vec({-.854875, .002375, .8525}),
+              1e-15);
+}
+
+TEST(ResolveImpact, RestitutionOfEachContact) {
+  // the first contact loses what is normal to it, the second keeps everything
+  const VecX e = vec({0, 1});
+  const ImpactOutcome out = resolve_impact(MatX::Identity(3, 3), line(3), vec({1, 0, -1}), e);
+  // [1, 0, -1] -> [.5, .5, -1] -> [.5, -1, .5] -> [-.25, -.25, .5]
+  expect_near(out.v, vec({-.25, -.25, .5}), 1e-15);
+  EXPECT_EQ(out.impulses.size(), 3u);
+}
+
+TEST(ResolveImpact, ARateAfterItsImpulseIsExact) {
+  const MatX G = (MatX(2, 2) << .3, .1, .1, .7).finished();
+  VecX u = vec({-.1, 5});
+  std::vector<Impulse> impulses;
+  ASSERT_TRUE(cascade(G, u, VecX::Zero(2), vec({.7, .2}), {}, impulses));
+  EXPECT_EQ(u[0], .7 * .1);
 }
 
 TEST(ResolveImpact, BadProblemsAreNamed) {
@@ -213,14 +233,16 @@ TEST(ResolveImpact, BadProblemsAreNamed) {
             std::string::npos);
   EXPECT_NE(message([&] { resolve_impact(M, MatX::Zero(1, 2), v); }).find("row 0"),
             std::string::npos);
-  EXPECT_NE(message([&] { resolve_impact(M, N, v, {.restitution = 1.5}); }).find("1.5"),
+  EXPECT_NE(message([&] { resolve_impact(M, N, v, 1.5); }).find("1.5 of contact 0"),
+            std::string::npos);
+  EXPECT_NE(message([&] { resolve_impact(M, N, v, vec({1, 1})); }).find("2 entries; N has 1 rows"),
             std::string::npos);
 }
 
 TEST(ResolveImpact, ABallJammedBetweenWallsIsAnErrorNotALoop) {
   const MatX N = (MatX(2, 1) << 1, -1).finished();
   try {
-    resolve_impact(MatX::Identity(1, 1), N, vec({1}), {.max_impulses = 1000});
+    resolve_impact(MatX::Identity(1, 1), N, vec({1}), 1, {.max_impulses = 1000});
     FAIL() << "expected JammedError";
   } catch (const JammedError& e) {
     EXPECT_EQ(e.iterations, 1000);

@@ -3,9 +3,9 @@
 // Paper, section III-D and (4), (5); theory, section 6. In contact space, with rows n_i = phi_q of
 // the contacts, u = N v and G = N M^-1 N^T:
 //
-//   lambda_i = -(1 + e) u_i / G_ii,   u += G(:, i) lambda_i       until all u >= -epsilon
+//   lambda_i = -(1 + e_i) u_i / G_ii,   u += G(:, i) lambda_i     until all u >= -epsilon
 //
-// Ends after finitely many impulses if e = 1 and the cone {v: N v >= 0} has an interior.
+// Ends after finitely many impulses if all e = 1 and the cone {v: N v >= 0} has an interior.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,6 @@ enum class ImpactOrder {
 };
 
 struct CascadeOptions {
-  double restitution = 1;  ///< e in [0, 1]
   ImpactOrder order = ImpactOrder::fastest;
   int max_impulses = 100000;
 };
@@ -45,16 +44,18 @@ struct CascadeScratch {
 };
 
 /// Contact-space cascade in place: O(entries of a row) an impulse.
-/// @param u (m) gap rates, changed; @param rest (m) epsilon_u >= 0
+/// @param u (m) gap rates, changed: after its impulse a contact has exactly -e u
+/// @param rest (m) epsilon_u >= 0; @param restitution (m) e in [0, 1] of each contact
 /// @param impulses appended: (index of contact, lambda) in order
 /// @return false when max_impulses did not suffice.
 SALTUS_EXPORT bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
-                           const CascadeOptions& options, CascadeScratch& scratch,
-                           std::vector<Impulse>& impulses);
+                           const VecRef& restitution, const CascadeOptions& options,
+                           CascadeScratch& scratch, std::vector<Impulse>& impulses);
 
 /// The same from a dense G (m, m).
 SALTUS_EXPORT bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, const VecRef& rest,
-                           const CascadeOptions& options, std::vector<Impulse>& impulses);
+                           const VecRef& restitution, const CascadeOptions& options,
+                           std::vector<Impulse>& impulses);
 
 struct ImpactOutcome {
   VecX v;                         ///< (n) velocity after
@@ -63,10 +64,18 @@ struct ImpactOutcome {
 
 /// The continuous-time problem of the paper's section II, for any mass matrix and normals.
 /// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
+/// @param restitution (m) e in [0, 1] of each contact
 /// @throws ModelError on shapes that do not fit, values that are not finite, M not positive
 ///         definite, e outside [0, 1]; JammedError when the cascade does not end.
 SALTUS_EXPORT ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M,
                                            const Eigen::Ref<const MatX>& N, const VecRef& v,
+                                           const VecRef& restitution,
+                                           const CascadeOptions& options = {});
+
+/// The same e for all contacts.
+SALTUS_EXPORT ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M,
+                                           const Eigen::Ref<const MatX>& N, const VecRef& v,
+                                           double restitution = 1,
                                            const CascadeOptions& options = {});
 
 }  // namespace saltus

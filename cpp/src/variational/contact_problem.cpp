@@ -1,0 +1,69 @@
+#include "variational/contact_problem.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <sstream>
+
+#include "saltus/error.hpp"
+
+namespace saltus {
+namespace {
+
+/// Of |v|_M sqrt(G_ii), the greatest rate that this kinetic energy allows: the rounding of u.
+constexpr double relative_rest = 1e-13;
+
+void check_arrays(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
+                  const VecRef& v) {
+  std::ostringstream text;
+  const auto n = v.size();
+  if (M.rows() != n || M.cols() != n) {
+    text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << n << " entries, so M is ("
+         << n << ", " << n << ")";
+  } else if (N.cols() != n && N.rows() > 0) {
+    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << n
+         << " entries, so N is (contacts, " << n << "), a row a contact";
+  } else if (!M.allFinite() || !N.allFinite() || !v.allFinite()) {
+    text << "M, N or v holds a value that is not finite";
+  } else if ((M - M.transpose()).norm() > 1e-12 * M.norm()) {
+    text << "M is not symmetric: it differs from its transpose by " << (M - M.transpose()).norm();
+  }
+  if (!text.str().empty()) throw ModelError(text.str());
+}
+
+void check_contacts(const Eigen::Ref<const MatX>& N, const VecRef& restitution) {
+  const auto m = N.rows();
+  std::ostringstream text;
+  if (restitution.size() != m) {
+    text << "restitution has " << restitution.size() << " entries; N has " << m
+         << " rows, a row a contact";
+    throw ModelError(text.str());
+  }
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (!(N.row(i).norm() > 0)) {
+      text << "row " << i << " of N is zero: no normal";
+    } else if (!(restitution[i] >= 0 && restitution[i] <= 1)) {
+      text << "restitution " << restitution[i] << " of contact " << i << " is outside [0, 1]";
+    }
+    if (!text.str().empty()) throw ModelError(text.str());
+  }
+}
+
+}  // namespace
+
+ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
+                               const VecRef& v, const VecRef& restitution) {
+  check_arrays(M, N, v);
+  check_contacts(N, restitution);
+  const Eigen::LLT<Eigen::MatrixXd> llt(M);
+  if (llt.info() != Eigen::Success) throw ModelError("M is not positive definite");
+  ContactProblem out;
+  out.speed = std::sqrt(std::max(0.0, v.dot(M * v)));
+  if (N.rows() == 0) return out;
+  out.columns = llt.solve(N.transpose());
+  out.G = N * out.columns;
+  out.u = N * v;
+  out.rest = relative_rest * out.speed * out.G.diagonal().array().sqrt();
+  return out;
+}
+
+}  // namespace saltus
