@@ -49,6 +49,7 @@ set(SALTUS_TEST_variational
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_resting.cpp
+  variational/test_restitution.cpp
   variational/test_stepper.cpp
   variational/test_sustained.cpp
 )

@@ -7,6 +7,27 @@
 namespace saltus {
 namespace {
 
+bool wants_energy(const ArcProblem& a) {
+  const auto& c = a.constraints;
+  return std::any_of(c.begin(), c.end(), [](const ArcConstraint& each) {
+    return each.kind == ArcConstraint::Kind::launch;
+  });
+}
+
+/// Adds c kappa to L. @return false where M is singular
+bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
+  Compensation& k = *s.compensation;
+  second_pass(model.packed, s.w);
+  if (!factorize(model.tree, model.packed, s.w, 0, k.M)) return false;
+  free_motion(model.tree, model.packed, s.w, k.M, k.free);
+  shadow_gradient(model.tree, model.packed, s.w, k.free.a, k.shadow);
+  k.c = (a.whole * a.whole - a.tau * a.tau) / 24;
+  s.L_v += k.c * k.shadow.kappa_v;
+  s.L_q += k.c * k.shadow.kappa_q;
+  s.scale += k.c * (k.shadow.kappa_v + a.tau / 2 * k.shadow.kappa_q).cwiseAbs();
+  return true;
+}
+
 /// Writes w, L_v, L_q and scale at v: all that the residual is made of.
 void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
   const Tree& tree = model.tree;
@@ -38,6 +59,9 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
 double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
                          ArcScratch& s) {
   evaluate(model, a, v, s);
+  if (a.whole > 0 && (a.tau < a.whole || wants_energy(a)) && !compensate(model, a, s)) {
+    return std::numeric_limits<double>::infinity();
+  }
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) {
     s.r += c.lambda * c.n;
@@ -53,8 +77,13 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
 
 namespace {
 
-double discrete_energy(const ModelData& model, const VecX& v, const ArcScratch& s) {
-  return 0.5 * v.dot(s.L_v) + potential_energy(model.packed, s.w);
+double discrete_energy(const ModelData& model, const ArcProblem& a, const VecX& v,
+                       const ArcScratch& s) {
+  const double energy = 0.5 * v.dot(s.L_v) + potential_energy(model.packed, s.w);
+  if (!(a.whole > 0)) return energy;
+  const Compensation& k = *s.compensation;  // half of its v.kappa_v is in v.L_v / 2 already
+  return energy + k.c * (0.5 * v.dot(k.shadow.kappa_v) - k.shadow.kappa) +
+         a.tau * a.tau * k.shadow.kappa / 12;
 }
 
 /// c and dc/dv of one constraint; c is scaled by tau (hold), so that it stays regular at tau = 0.
@@ -70,7 +99,7 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
   multiply_by_rates(model.packed, s.w, s.products);
   gather(model.tree, model.packed, s.products.by_joint, 1, s.L_qv_v);
   c.row = s.L_v + a.tau / 2 * (s.L_qv_v - s.L_q);
-  return discrete_energy(model, v, s) - c.target;
+  return discrete_energy(model, a, v, s) - c.target;
 }
 
 // J dv - N dlambda = r, C dv = -c, by the Schur complement C J^-1 N.
@@ -110,7 +139,7 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
       // 1e-12: a hundredth of pair.touch is closed
       size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);
     } else {
-      const double energy = discrete_energy(model, v, s);
+      const double energy = discrete_energy(model, a, v, s);
       size = std::max(size,
                       std::abs(energy - c.target) / (std::abs(c.target) + std::abs(v.dot(s.L_v))));
     }
@@ -147,12 +176,18 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
 
 }  // namespace
 
-ArcScratch::ArcScratch(const ModelData& model)
+Compensation::Compensation(const ModelData& model)
+    : M(model.tree, model.packed),
+      free(model.tree, model.packed),
+      shadow(model.tree, model.packed) {}
+
+ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
     : w(model.packed),
       J(model.tree, model.packed),
       products(model.packed),
       w_end(model.packed),
       kin_end(model.tree) {
+  if (law == ImpactLaw::compensated) compensation.emplace(model);
   const int n = model.tree.coordinates;
   for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv, &L_qv_v, &L_vq_v, &L_qq_v}) {
     each->setZero(n);
@@ -197,16 +232,20 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
     if (!std::isfinite(arc.residual)) return false;
     converged = is_converged(arc.residual, before);
   }
-  finish_arc(model, a, options, arc, s);
+  finish_arc(a, arc, s);
   return converged;
 }
 
-void finish_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
-                ArcScratch& s) {
+void finish_arc(const ArcProblem& a, Arc& arc, const ArcScratch& s) {
   arc.q_end = a.q + a.tau * arc.v;
   arc.p_end = a.p + a.tau * s.L_q;
   for (const ArcConstraint& c : a.constraints) arc.p_end += c.lambda * c.n;
-  if (options.law == ImpactLaw::discrete_energy) arc.energy = discrete_energy(model, arc.v, s);
+}
+
+double arc_energy(const ModelData& model, const ArcProblem& a, const Arc& arc, ArcScratch& s) {
+  evaluate(model, a, arc.v, s);
+  if (a.whole > 0) compensate(model, a, s);
+  return discrete_energy(model, a, arc.v, s);
 }
 
 void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate) {

@@ -42,13 +42,13 @@ bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
   const double touch = gap.pair.touch;
   double before = std::numeric_limits<double>::infinity(), phi_before = before;
   for (arc.iterations = 0; arc.iterations <= most_iterations; ++arc.iterations) {
-    const ArcProblem a{q, p, arc.tau, {}};
+    const ArcProblem a{q, p, arc.tau, {}, whole_step(options)};
     arc.residual = momentum_residual(model, a, arc.v, s);
     if (!std::isfinite(arc.residual)) return false;
     const double phi = gap_at_end(model, a, arc.v, gap.pair, s, gap.n);
     const bool stalled = std::abs(phi) <= touch / 2 && std::abs(phi) >= phi_before / 2;
     if (is_converged(arc.residual, before) && (std::abs(phi) <= 1e-3 * touch || stalled)) {
-      finish_arc(model, a, options, arc, s);
+      finish_arc(a, arc, s);
       return true;
     }
     if (arc.iterations == most_iterations || !improve(model, a, phi, gap, arc, s)) return false;

@@ -65,6 +65,9 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   c.phi = g.phi;
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
+  const ContactProperties& properties = model.materials.between(pair.a, pair.b);
+  c.restitution = properties.restitution;
+  c.friction = properties.friction;
   classify(node, speed, options.rest, c);
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
   node.contact_of[index] = node.touching++;

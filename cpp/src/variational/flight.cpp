@@ -4,18 +4,10 @@
 
 #include "saltus/collision/chord.hpp"
 #include "variational/impact_time.hpp"
+#include "variational/launch.hpp"
 
 namespace saltus {
 namespace {
-
-ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target) {
-  ArcConstraint& c = f.constraints[f.active++];
-  c.kind = kind;
-  c.place = place;
-  c.target = target;
-  c.lambda = 0;
-  return c;
-}
 
 /// A sharp corner that slides over the border of a face has no normal there: it is held in the
 /// plane of the face, and at the next node it is beside it and free.
@@ -169,34 +161,24 @@ bool solve_first_arc(const ModelData& model, const StepOptions& options, double 
   return solve_flight_arc(model, options, left, node, f);
 }
 
-/// Asks for E_d of the arc that hit, unless the last strong impulse is too weak to match it
-/// (theory, section 5, warning a). Needs the arc without the launch in flight.arc.
-bool try_launch(Node& node, Flight& f) {
-  const double mismatch = std::abs(f.arc.energy - node.launch.energy);
-  if (node.launch.normal_energy <= mismatch || f.active == most_constraints) return false;
-  next_constraint(f, ArcConstraint::Kind::launch, -1, node.launch.energy).n = node.launch.n;
-  return true;
-}
-
-bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
-            Flight& f) {
-  node.launch.pending = false;
-  if (!try_launch(node, f)) return false;
-  f.start_v = f.arc.v;
-  if (solve_flight_arc(model, options, left, node, f)) return true;
-  --f.active;  // no root after all: back to the nodal arc, which is its own guess
-  f.arc.v = f.start_v;
-  solve_flight_arc(model, options, left, node, f);
-  return false;
+/// An arc of no duration, where something at the node has to be resolved first.
+FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options, const Node& node,
+                             Flight& f) {
+  f.active = 0;
+  f.arc.v = node.v;
+  return solve_flight_arc(model, options, 0, node, f) ? FlightOutcome::arrived
+                                                      : FlightOutcome::not_converged;
 }
 
 }  // namespace
 
-Flight::Flight(const ModelData& model)
+Flight::Flight(const ModelData& model, const StepOptions& options)
     : history(model.tree.coordinates),
-      scratch(model),
+      scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
       constraints(most_constraints) {
+  if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
+  settlings.reserve(64);
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (ArcConstraint& c : constraints) {
@@ -247,6 +229,12 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
       case ImpactTime::at_rest:
         node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
         f.arc.v = f.start_v;
+        break;
+      case ImpactTime::settles:
+        f.settlings.push_back({node.t + f.settling_time, hit.pair});
+        come_to_rest(model, node.contact_of[hit.pair], node);
+        f.arc.v = f.start_v;
+        if (impact_pending(node)) return arrive_at_once(model, options, node, f);
         break;
       case ImpactTime::not_converged:
         return FlightOutcome::not_converged;

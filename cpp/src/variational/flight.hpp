@@ -9,29 +9,35 @@
 // again, until its chord is clear: no impact inside a step is missed, and none is taken too late.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "saltus/variational/options.hpp"
 #include "variational/arc.hpp"
+#include "variational/energy_meter.hpp"
 #include "variational/guess.hpp"
 #include "variational/node.hpp"
 
 namespace saltus {
 
 struct Flight {
-  explicit Flight(const ModelData& model);
+  Flight(const ModelData& model, const StepOptions& options);
 
   Arc arc;  ///< the result
   GuessHistory history;
-  int closing = -1;       ///< place of the pair whose impact was sought last
-  int iterations = 0;     ///< Newton iterations of all arcs tried
-  bool has_rate = false;  ///< `rate` is v' of the arc, which ends where a gap closes
+  int closing = -1;          ///< place of the pair whose impact was sought last
+  int iterations = 0;        ///< Newton iterations of all arcs tried
+  double settling_time = 0;  ///< [s] from the node, of the pair that settles
+  bool has_rate = false;     ///< `rate` is v' of the arc, which ends where a gap closes
+
+  std::vector<Settling> settlings;  ///< appended to; `pair` is a place in the pool
 
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
   std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
   int active = 0;
+  std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
@@ -47,7 +53,7 @@ enum class FlightOutcome {
 
 /// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs
 /// that it holds closed are marked in node.held.
-/// @param fallback set where discrete_energy could not be met and nodal_energy was used
+/// @param fallback set where options.law could not be met and nodal_energy was used
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& flight, bool& fallback);
 

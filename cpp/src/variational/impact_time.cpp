@@ -102,6 +102,9 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
   const double drop = phi_at_end(model, pair, f) - c.phi - c.u * tau;
   if (!(drop < 0)) return ImpactTime::missed;
   const double back = std::min(tau, -c.u * tau * tau / drop);
+  // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
+  f.settling_time = back / (1 - c.restitution);
+  if (f.settling_time <= tau) return ImpactTime::settles;
   if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;
@@ -117,10 +120,14 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
 
 }  // namespace
 
+ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
+  const std::span constraints(f.constraints.data(), static_cast<std::size_t>(f.active));
+  return {node.q, node.p, tau, constraints, whole_step(options)};
+}
+
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
                       const Node& node, Flight& f) {
-  const ArcProblem problem{node.q, node.p, tau,
-                           std::span(f.constraints.data(), static_cast<std::size_t>(f.active))};
+  const ArcProblem problem = arc_problem(options, tau, node, f);
   const bool converged = solve_arc(model, problem, options, f.arc, f.scratch);
   f.iterations += f.arc.iterations;
   return converged;

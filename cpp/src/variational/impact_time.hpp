@@ -10,9 +10,12 @@ enum class ImpactTime {
   found,          ///< flight.arc ends at phi = 0
   missed,         ///< the chord grazes what the arc passes: no impact
   at_rest,        ///< the pair would hop lower than pair.touch: it rests
+  settles,        ///< it bounces ever lower, and has come to rest before the arc ends
   not_converged,  ///< an arc on the way did not converge
   not_located,    ///< the root was not found in the bounded number of arcs
 };
+
+ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& flight);
 
 /// Solves the arc of duration tau from the node with the flight's active constraints.
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,

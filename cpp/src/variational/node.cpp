@@ -53,33 +53,17 @@ void add_row(int i, Node& node) {
   }
 }
 
-/// Columns, rates and G of all contacts.
-void set_G(const ModelData& model, Node& node) {
-  const int m = node.touching;
-  if (node.u.size() < m) {
-    node.u.resize(m);
-    node.rest.resize(m);
-    node.restitution.setOnes(m);
-  }
-  for (int i = 0; i < m; ++i) {
-    Contact& c = node.contacts[i];
-    solve(model, node.trees, c.n, node.M, node.column, c.column);
-    node.u[i] = c.u;
-    node.rest[i] = c.epsilon_u;
-  }
-  node.G.start.clear();
-  node.G.column.clear();
-  node.G.value.clear();
-  node.G.diagonal.clear();
-  list_contacts_by_tree(node);
-  for (int i = 0; i < m; ++i) add_row(i, node);
-  node.G.start.push_back(static_cast<int>(node.G.column.size()));
-  clear_contacts_by_tree(node);
-}
-
 void apply(Node& node, int contact, double lambda) {
   add(node.trees, lambda, node.contacts[contact].n, node.p);
   add(node.trees, lambda, node.contacts[contact].column, node.v);
+}
+
+void refresh_motions(Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    Contact& c = node.contacts[i];
+    c.u = dot(node.trees, c.n, node.v);
+    c.motion = motion_of(c.u, c.epsilon_u);
+  }
 }
 
 }  // namespace
@@ -118,11 +102,44 @@ Node::Node(const ModelData& model)
   restitution.setOnes(static_cast<Eigen::Index>(reserved));
 }
 
+void set_contact_matrix(const ModelData& model, Node& node) {
+  const int m = node.touching;
+  if (node.u.size() < m) {
+    node.u.resize(m);
+    node.rest.resize(m);
+    node.restitution.resize(m);
+  }
+  for (int i = 0; i < m; ++i) {
+    Contact& c = node.contacts[i];
+    solve(model, node.trees, c.n, node.M, node.column, c.column);
+    node.u[i] = c.u;
+    node.rest[i] = c.epsilon_u;
+    node.restitution[i] = c.restitution;
+  }
+  node.G.start.clear();
+  node.G.column.clear();
+  node.G.value.clear();
+  node.G.diagonal.clear();
+  list_contacts_by_tree(node);
+  for (int i = 0; i < m; ++i) add_row(i, node);
+  node.G.start.push_back(static_cast<int>(node.G.column.size()));
+  clear_contacts_by_tree(node);
+}
+
 bool impact_pending(const Node& node) {
   for (int i = 0; i < node.touching; ++i) {
     if (node.contacts[i].motion == Contact::Motion::approaches) return true;
   }
   return false;
+}
+
+void come_to_rest(const ModelData& model, int contact, Node& node) {
+  Contact& c = node.contacts[contact];
+  solve(model, node.trees, c.n, node.M, node.column, c.column);
+  apply(node, contact, -c.u / dot(c.n, c.column));
+  node.held[c.pair] = 1;
+  refresh_motions(node);
+  settle_held_contacts(model, node);
 }
 
 void settle_held_contacts(const ModelData& model, Node& node) {
@@ -153,64 +170,11 @@ void settle_held_contacts(const ModelData& model, Node& node) {
     std::swap(held[worst], held[count - 1]);
   }
   for (int i = 0; i < count; ++i) apply(node, held[i], lambda[i]);
-  for (int i = 0; i < node.touching; ++i) {
-    Contact& c = node.contacts[i];
-    c.u = dot(node.trees, c.n, node.v);
-    c.motion = motion_of(c.u, c.epsilon_u);
-  }
+  refresh_motions(node);
 }
 
 double node_energy(const ModelData& model, const Node& node) {
   return 0.5 * node.p.dot(node.v) + potential_energy(model.packed, node.w);
-}
-
-bool resolve_node_impact(const ModelData& model, const StepOptions& options, double arc_energy,
-                         Node& node, StepReport& report) {
-  set_G(model, node);
-  const int m = node.touching;
-  node.impulses.clear();
-  CascadeOptions cascade_options;
-  cascade_options.max_impulses = options.max_impulses;
-  if (!cascade(node.G, node.u.head(m), node.rest.head(m), node.restitution.head(m), cascade_options,
-               node.cascade, node.impulses)) {
-    return false;
-  }
-
-  Impact impact{node.t,
-                static_cast<int>(report.impulses.size()),
-                static_cast<int>(node.impulses.size()),
-                m,
-                ImpactLaw::nodal_energy,
-                false};
-  double strongest = 0;
-  for (const Impulse& impulse : node.impulses) {
-    // lambda u / 2 is the normal kinetic energy u^2 / 2G four times over: lambda = -2 u / G
-    const double energy = impulse.lambda * impulse.lambda * node.G.diagonal[impulse.pair] / 8;
-    strongest = std::max(strongest, energy);
-  }
-  for (const Impulse& impulse : node.impulses) {
-    const Contact& c = node.contacts[impulse.pair];
-    const double energy = impulse.lambda * impulse.lambda * node.G.diagonal[impulse.pair] / 8;
-    if (energy > 1e-3 * strongest) {  // the last strong one carries the energy match
-      node.launch.normal_energy = energy;
-      node.launch.n.setZero();
-      add(node.trees, 1, c.n, node.launch.n);
-    }
-    apply(node, impulse.pair, impulse.lambda);
-    report.impulses.push_back({node.pool.number(c.pair), impulse.lambda});
-  }
-  node.launch.pending = options.law == ImpactLaw::discrete_energy;
-  node.launch.energy = arc_energy;
-  impact.law = options.law;
-  report.impacts.push_back(impact);
-  const double speed = typical_speed(model, options, node);
-  node.v = node.p;  // without the rounding that the cascade's updates have gathered
-  solve(model.tree, model.packed, node.M, node.v);
-  for (int i = 0; i < m; ++i) {
-    node.held[node.contacts[i].pair] = 0;
-    classify(node, speed, options.rest, node.contacts[i]);
-  }
-  return true;
 }
 
 }  // namespace saltus

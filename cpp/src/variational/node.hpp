@@ -25,15 +25,17 @@ struct Contact {
   double u = 0;          ///< [m/s] gap rate
   double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
+  double restitution = 1, friction = 0;
   Vec3 n_W, p_WB;        ///< [m] normal, witness on b
   ContactVector n;       ///< phi_q
   ContactVector column;  ///< M^-1 n, written by the impact
 };
 
-/// What discrete_energy asks of the next arc: E_d = energy, by a last impulse along n.
+/// What laws other than nodal_energy ask of the arc after an impact: this energy, by a change of
+/// the last strong impulse, along n.
 struct Launch {
   bool pending = false;
-  double energy = 0;         ///< [J] E_d of the arc that hit
+  double energy = 0;         ///< [J] what the law conserves, less what restitution took
   double normal_energy = 0;  ///< [J] u^2 / 2G of the last strong impulse
   VecX n;                    ///< (n_q)
 };
@@ -98,16 +100,25 @@ bool find_contacts(const ModelData& model, const StepOptions& options, Node& nod
 /// sustained contact. Changes p and v.
 void settle_held_contacts(const ModelData& model, Node& node);
 
+/// Ends the bouncing of a contact that leaves: it rests, and what is held stays so. Changes p and
+/// v; other contacts may approach then.
+void come_to_rest(const ModelData& model, int contact, Node& node);
+
 /// True where some touching pair approaches.
 bool impact_pending(const Node& node);
 
-/// Resolves the impact at the node: changes p, v and launch, appends to the report.
-/// @param arc_energy E_d of the arc that hit [J], for discrete_energy
-/// @return false when the cascade does not end (JammedError is the caller's)
-bool resolve_node_impact(const ModelData& model, const StepOptions& options, double arc_energy,
-                         Node& node, StepReport& report);
+/// Columns, rates, restitution and G of all contacts.
+void set_contact_matrix(const ModelData& model, Node& node);
 
 /// H(q, p) [J] at a node. Needs set_configuration at q in node.kin and v.
 double node_energy(const ModelData& model, const Node& node);
+
+// impact.cpp
+
+/// Resolves the impact at the node: changes p, v and launch, appends to the report.
+/// @param energy [J] what options.law conserves, before the impact; of no use to nodal_energy
+/// @return false when the cascade does not end (JammedError is the caller's)
+bool resolve_node_impact(const ModelData& model, const StepOptions& options, double energy,
+                         Node& node, StepReport& report);
 
 }  // namespace saltus

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "variational/flight.hpp"
+#include "variational/impact_time.hpp"
 
 namespace saltus {
 
@@ -12,11 +13,12 @@ struct Stepper::Impl {
       : model(with_options.collisions ? with : with.without_collisions()),
         options(with_options),
         node(*model),
-        flight(*model) {
+        flight(*model, options) {
     last.q.setZero(model.n_q());
     last.p.setZero(model.n_q());
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
+    report.settlings.reserve(64);
   }
 
   void step(State& state);
@@ -24,6 +26,7 @@ struct Stepper::Impl {
   void check_overlap() const;
   void fly_one_arc(double left);
   void arrive(double t);
+  double conserved_energy();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome) const;
   [[noreturn]] void fail_jammed() const;
@@ -36,7 +39,7 @@ struct Stepper::Impl {
   Node node;
   Flight flight;
   StepReport report;
-  State last;  // what the last step returned: the node still holds it
+  State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
 };
 
@@ -88,6 +91,8 @@ void Stepper::Impl::step(State& state) {
   report.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
+  report.settlings.clear();
+  flight.settlings.clear();
   if (!last_is_valid || !(state == last) || node.pool.is_full()) start(state);
   last_is_valid = false;  // until this step is done
   const double t_start = state.t, h = options.h;
@@ -105,6 +110,7 @@ void Stepper::Impl::start(const State& state) {
   check_vector(state.p, model.n_q(), "state.p");
   if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
   last_is_valid = false;
+  last = state;
   flight.history.clear();
   flight.has_rate = false;
   node.launch.pending = false;
@@ -118,10 +124,7 @@ void Stepper::Impl::start(const State& state) {
   node.v.setZero();
   if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
   check_overlap();
-  if (impact_pending(node)) {
-    flight.arc.energy = node_energy(*model, node);
-    arrive(state.t);
-  }
+  if (impact_pending(node)) arrive(state.t);
 }
 
 void Stepper::Impl::check_overlap() const {
@@ -149,6 +152,10 @@ void Stepper::Impl::fly_one_arc(double left) {
   flight.iterations = 0;
   report.residual = std::max(report.residual, flight.arc.residual);
   if (outcome != FlightOutcome::arrived) fail(outcome);
+  for (const Settling& each : flight.settlings) {
+    report.settlings.push_back({each.t, node.pool.number(each.pair)});
+  }
+  flight.settlings.clear();
   if (fallback && !report.impacts.empty()) {
     report.impacts.back().fallback = true;
     report.impacts.back().law = ImpactLaw::nodal_energy;
@@ -170,8 +177,28 @@ void Stepper::Impl::arrive(double t) {
   }
   if (!impact_pending(node)) return;
   if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();
-  if (!resolve_node_impact(*model, options, flight.arc.energy, node, report)) fail_jammed();
+  if (!resolve_node_impact(*model, options, conserved_energy(), node, report)) fail_jammed();
   flight.history.clear();
+}
+
+// What the law conserves, at the node before the impact.
+double Stepper::Impl::conserved_energy() {
+  if (options.law == ImpactLaw::shadow_energy) {
+    if (report.impacts.empty()) {  // what is left of it after the impacts of this step
+      measure(*model, last.q, last.p, options.h, *flight.meter);
+      node.launch.energy = flight.meter->energy.shadow;
+    }
+    return node.launch.energy;
+  }
+  if (options.law != ImpactLaw::discrete_energy && options.law != ImpactLaw::compensated) return 0;
+  if (report.arcs == 0) {  // at the start: an arc of no duration
+    flight.active = 0;
+    flight.arc.v = node.v;
+    if (!solve_flight_arc(*model, options, 0, node, flight)) fail(FlightOutcome::not_converged);
+  }
+  flight.n = node.q - flight.arc.tau * flight.arc.v;  // where the arc started
+  const ArcProblem problem{flight.n, node.p, flight.arc.tau, {}, whole_step(options)};
+  return arc_energy(*model, problem, flight.arc, flight.scratch);
 }
 
 // A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.

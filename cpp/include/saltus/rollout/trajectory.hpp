@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/variational/energies.hpp"
 #include "saltus/variational/report.hpp"
 
 namespace saltus {
@@ -25,11 +26,6 @@ struct SALTUS_EXPORT Trajectory {
   VecX total() const { return kinetic + potential; }
   /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).
   double energy_error() const;
-};
-
-/// Energies of one state.
-struct Energies {
-  double kinetic, potential, shadow;  ///< [J]
 };
 
 }  // namespace saltus

@@ -16,12 +16,6 @@
 
 namespace saltus {
 
-/// Which of the approaching contacts is next.
-enum class ImpactOrder {
-  fastest,  ///< the most negative u_i / sqrt(G_ii); ties go to the lowest index
-  index,    ///< the lowest index
-};
-
 struct CascadeOptions {
   ImpactOrder order = ImpactOrder::fastest;
   int max_impulses = 100000;

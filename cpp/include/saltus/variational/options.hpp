@@ -1,18 +1,32 @@
 // How to step: the step size, the law at impacts, bounds and tolerances with their reasons.
 #pragma once
 
+#include "saltus/variational/impact_problem.hpp"
+
 namespace saltus {
 
-/// Which energy an impact conserves (theory, section 5).
+/// Which energy an elastic impact conserves (theory, section 5); what restitution takes away is
+/// taken from the same one.
 enum class ImpactLaw {
   nodal_energy,     ///< H(q, p+) = H(q, p-) at the impact: lambda = -2u/G, always solvable
   discrete_energy,  ///< the paper's (11c): E_d of the arcs on both sides equal; exactly symplectic
+  shadow_energy,    ///< H - h^2 kappa / 24 at both ends of the step equal: what a fixed step keeps
+  compensated,      ///< (11c) with arcs of L + (h^2 - tau^2) kappa / 24: symplectic, and O(h^4)
+  custom,           ///< a function of the user's, StepOptions::custom
+};
+
+/// Which of the approaching contacts is next.
+enum class ImpactOrder {
+  fastest,  ///< the most negative u_i / sqrt(G_ii); ties go to the lowest index
+  index,    ///< the lowest index
 };
 
 struct StepOptions {
   double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
-  bool collisions = true;  ///< false: bodies pass through each other
+  ImpactOrder order = ImpactOrder::fastest;
+  ImpactFunction custom = {};  ///< what law = custom calls
+  bool collisions = true;      ///< false: bodies pass through each other
 
   int max_iterations = 40;    ///< Newton iterations an arc; 2 to 4 are usual
   int max_impacts = 1000;     ///< impacts a step; more is a body bouncing faster than h can follow

@@ -20,7 +20,13 @@ struct Impact {
   int count;
   int contacts;   ///< pairs that touched
   ImpactLaw law;  ///< the law that was used
-  bool fallback;  ///< discrete_energy asked for, nodal_energy used (theory, section 5, warning a)
+  bool fallback;  ///< another law asked for, nodal_energy used (theory, section 5, warning a)
+};
+
+/// A pair that bounced ever lower has come to rest.
+struct Settling {
+  double t;  ///< [s] when the last of infinitely many bounces ends
+  int pair;  ///< index in model->pairs
 };
 
 /// Written by Stepper; valid until its next step.
@@ -31,6 +37,7 @@ struct StepReport {
   double residual = 0;  ///< [largest momentum] of the worst arc
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
+  std::vector<Settling> settlings;
 };
 
 }  // namespace saltus

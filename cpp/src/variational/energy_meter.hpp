@@ -1,0 +1,27 @@
+// Energies of states, without allocating.
+#pragma once
+
+#include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/model/model.hpp"
+#include "saltus/variational/energies.hpp"
+
+namespace saltus {
+
+/// Velocity and energies of one state; scratch.
+struct EnergyMeter {
+  explicit EnergyMeter(const ModelData& model);
+
+  VecX v;           ///< (n_q) written by measure
+  Energies energy;  ///< written by measure
+
+  Packed w;
+  PackedMatrix M;
+  PackedProducts products;
+  VecX L_q, L_vq_v, L_qq_v, force, a;
+};
+
+/// The shadow energy is that of a fixed step h.
+/// @return false where the mass matrix is singular
+bool measure(const ModelData& model, const VecX& q, const VecX& p, double h, EnergyMeter& meter);
+
+}  // namespace saltus

@@ -1,0 +1,89 @@
+// What an impact does to the momenta at a node (theory, sections 5 and 6).
+#include <algorithm>
+#include <cmath>
+
+#include "variational/custom_law.hpp"
+#include "variational/node.hpp"
+
+namespace saltus {
+namespace {
+
+/// Kinetic energy of the approach that an impulse turns round: u^2 / 2G, from lambda = -(1 + e)
+/// u/G.
+double normal_energy(const Node& node, const Impulse& impulse) {
+  const double u_G = impulse.lambda / (1 + node.restitution[impulse.pair]);
+  return u_G * u_G * node.G.diagonal[impulse.pair] / 2;
+}
+
+/// Says what the arc after the impact has to match, and by a change of which impulse: the last
+/// strong one (theory, section 5, warning a).
+void prepare_launch(double energy, Node& node) {
+  double strongest = 0, lost = 0;
+  for (const Impulse& impulse : node.impulses) {
+    const double e = node.restitution[impulse.pair], part = normal_energy(node, impulse);
+    strongest = std::max(strongest, part);
+    lost += (1 - e * e) * part;
+  }
+  for (const Impulse& impulse : node.impulses) {
+    const double part = normal_energy(node, impulse);
+    if (!(part > 1e-3 * strongest)) continue;
+    node.launch.normal_energy = part;
+    node.launch.n.setZero();
+    add(node.trees, 1, node.contacts[impulse.pair].n, node.launch.n);
+  }
+  node.launch.pending = true;
+  node.launch.energy = energy - lost;
+}
+
+/// v from p, and what every contact does now.
+void settle_velocities(const ModelData& model, const StepOptions& options, Node& node) {
+  const double speed = typical_speed(model, options, node);
+  node.v = node.p;  // without the rounding that the cascade's updates have gathered
+  solve(model.tree, model.packed, node.M, node.v);
+  for (int i = 0; i < node.touching; ++i) {
+    node.held[node.contacts[i].pair] = 0;
+    classify(node, speed, options.rest, node.contacts[i]);
+  }
+}
+
+/// p += sum lambda_i n_i
+void apply_impulses(Node& node) {
+  for (const Impulse& impulse : node.impulses) {
+    add(node.trees, impulse.lambda, node.contacts[impulse.pair].n, node.p);
+  }
+}
+
+void tell(const Node& node, ImpactLaw law, StepReport& report) {
+  const int first = static_cast<int>(report.impulses.size());
+  for (const Impulse& impulse : node.impulses) {
+    const int pair = node.contacts[impulse.pair].pair;
+    report.impulses.push_back({node.pool.number(pair), impulse.lambda});
+  }
+  const int count = static_cast<int>(node.impulses.size());
+  report.impacts.push_back({node.t, first, count, node.touching, law, false});
+}
+
+}  // namespace
+
+bool resolve_node_impact(const ModelData& model, const StepOptions& options, double energy,
+                         Node& node, StepReport& report) {
+  set_contact_matrix(model, node);
+  const int m = node.touching;
+  node.impulses.clear();
+  if (options.law == ImpactLaw::custom) {
+    obey_custom_law(model, options.custom, node);
+  } else {
+    CascadeOptions cascade_options{options.order, options.max_impulses};
+    if (!cascade(node.G, node.u.head(m), node.rest.head(m), node.restitution.head(m),
+                 cascade_options, node.cascade, node.impulses)) {
+      return false;
+    }
+    apply_impulses(node);
+    if (options.law != ImpactLaw::nodal_energy) prepare_launch(energy, node);
+  }
+  tell(node, options.law, report);
+  settle_velocities(model, options, node);
+  return true;
+}
+
+}  // namespace saltus

@@ -1,0 +1,137 @@
+// Impacts that lose energy: rebound, plastic, and the infinitely many bounces before rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes.hpp"
+
+namespace saltus {
+namespace {
+
+constexpr double g = 9.81;
+
+/// A ball of radius r that slides along z above the floor.
+Model ball(double restitution, double r = 0.1) {
+  ModelBuilder b("ball");
+  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, r);
+  b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({restitution, 0});
+  return b.build();
+}
+
+/// A pendulum that leans on a wall: at rest at the angle `lean` from the vertical.
+Model leaning_pendulum(double restitution, double lean) {
+  ModelBuilder b("pendulum");
+  BodyInertia bob = solid_sphere(1, 0.05);
+  bob.c_J = Vec3(0, 0, -1);
+  b.add_link({"bob", bob});
+  b.add_joint({.name = "swing", .parent = "world", .child = "bob", .axis = Vec3::UnitY()});
+  b.add_shape("bob", Sphere{0.05}, {Mat3::Identity(), Vec3(0, 0, -1)});
+  // the angle grows towards -x; the wall's solid lies beyond
+  b.add_half_space("wall", Vec3(-1, 0, 0), std::sin(lean) + 0.05);
+  b.set_default_contact({restitution, 0});
+  return b.build();
+}
+
+/// When the first pair settles; NaN if none does within `duration`.
+double settling_time(const Model& model, State state, double duration, double h) {
+  Stepper stepper(model, {.h = h});
+  while (state.t < duration) {
+    stepper.step(state);
+    if (!stepper.report().settlings.empty()) return stepper.report().settlings[0].t;
+  }
+  return NAN;
+}
+
+TEST(Restitution, AReboundHasThatPartOfTheRate) {
+  for (const double e : {0.0, 0.3, 0.8, 1.0}) {
+    const Model model = ball(e);
+    Stepper stepper(model, {.h = 0.1});
+    // without a height to fall from: hits at t = 0
+    const State after = stepper.advance(model.state({{"height", 0.1}}, {{"height", -5}}));
+    ASSERT_EQ(stepper.report().impacts.size(), 1u);
+    EXPECT_NEAR(stepper.report().impulses[0].lambda, 5 * (1 + e), 1e-12);
+    EXPECT_NEAR(after.p[0], e == 0 ? 0 : 5 * e - g * 0.1, 1e-12) << e;
+  }
+}
+
+// A parabola is exact under the midpoint rule, so the sum of the bounces is, for any h.
+TEST(Restitution, ABouncingBallComesToRestWhenItShould) {
+  const Model model = ball(0.5);
+  const double expected = 3 * std::sqrt(2 / g);
+  EXPECT_NEAR(expected, 1.354571, 5e-7);
+  for (const double h : {0.04, 0.01, 0.0025}) {
+    const State start = model.state({{"height", 1.1}});
+    EXPECT_NEAR(settling_time(model, start, 2, h), expected, 1e-9) << h;
+    const Trajectory run = simulate(model, start, 10, {.h = h});
+    for (Eigen::Index row = run.t.size() / 5; row < run.t.size(); ++row) {
+      ASSERT_NEAR(run.q(row, 0), 0.1, 1e-12);
+      ASSERT_NEAR(run.p(row, 0), 0, 1e-12);
+    }
+    EXPECT_LT(run.impacts.size(), 30u);
+  }
+}
+
+// Bounces are many where e is near 1: each is an impact until the rest of them fits into a step.
+TEST(Restitution, ALivelyBallComesToRestToo) {
+  const Model model = ball(0.95);
+  const double expected = std::sqrt(2 / g) * 1.95 / 0.05;
+  EXPECT_NEAR(settling_time(model, model.state({{"height", 1.1}}), 20, 0.01), expected, 1e-8);
+}
+
+// The pendulum's swing is not exact: its times have the order of the midpoint rule.
+TEST(Restitution, TimeOfRestConvergesWithOrderTwo) {
+  const Model model = leaning_pendulum(0.5, 0.4);
+  const State start = model.state({{"swing", -0.3}});
+  const double best = settling_time(model, start, 20, 0.04 / 256);
+  const double coarse = settling_time(model, start, 20, 0.04) - best;
+  const double fine = settling_time(model, start, 20, 0.01) - best;
+  ASSERT_TRUE(std::isfinite(best));
+  EXPECT_NEAR(std::log(std::abs(coarse / fine)) / std::log(4), 2, 0.5);
+}
+
+TEST(Restitution, ACradleOfSteelEndsSwingingTogether) {
+  ModelBuilder b("cradle");
+  for (int i = 0; i < 3; ++i) {
+    const std::string k = std::to_string(i);
+    BodyInertia body = solid_sphere(1, 0.05);
+    body.c_J = Vec3(0, 0, -1);
+    b.add_link({"ball_" + k, body});
+    b.add_joint({.name = "swing_" + k,
+                 .parent = "world",
+                 .child = "ball_" + k,
+                 .X_PJ = {Mat3::Identity(), Vec3(0.1 * i, 0, 0)},
+                 .axis = Vec3::UnitY()});
+    b.add_shape("ball_" + k, Sphere{0.05}, {Mat3::Identity(), Vec3(0, 0, -1)});
+  }
+  b.set_default_contact({0.95, 0});
+  const Model model = b.build();
+  const Trajectory run = simulate(model, model.state({{"swing_0", 0.3}}), 300, {.h = 0.01});
+  const Eigen::Index n = run.t.size();
+  double apart = 0, swing = 0;
+  for (Eigen::Index row = n - 500; row < n; ++row) {
+    apart = std::max(apart, run.q.row(row).maxCoeff() - run.q.row(row).minCoeff());
+    swing = std::max(swing, run.q.row(row).cwiseAbs().maxCoeff());
+  }
+  // momentum is conserved: the amplitude of three together is a third of that of one
+  EXPECT_NEAR(swing, 0.1, 0.01);
+  EXPECT_LT(apart, 1e-3);
+  for (Eigen::Index row = 1; row < n; ++row) {  // energy never grows, but for h^2's band
+    ASSERT_LT(run.total()[row], run.total()[row - 1] + 1e-5);
+  }
+}
+
+TEST(Restitution, PlasticBallsGoOnTogether) {
+  ModelBuilder b("beads");
+  b.set_gravity(Vec3::Zero()).set_default_contact({0, 0});
+  for (int i = 0; i < 3; ++i) {
+    scenes::add_bead(b, "x_" + std::to_string(i), Vec3(0.2 * i, 0, 0), Vec3::UnitX(), 1, 0.05);
+  }
+  const Model model = b.build();
+  const Trajectory run = simulate(model, model.state({}, {{"x_0", 3}}), 1, {.h = 0.01});
+  const Eigen::Index end = run.t.size() - 1;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(run.v(end, i), 1, 1e-12);
+  EXPECT_EQ(run.impacts.size(), 2u);
+}
+
+}  // namespace
+}  // namespace saltus
