@@ -1,7 +1,7 @@
 // Writes rows of a trajectory, with energies, without allocating.
 #pragma once
 
-#include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/lagrangian/shadow.hpp"
 #include "saltus/rollout/batch.hpp"
 #include "saltus/rollout/trajectory.hpp"
 
@@ -16,8 +16,7 @@ struct EnergyMeter {
 
   Packed w;
   PackedMatrix M;
-  PackedProducts products;
-  VecX L_q, L_vq_v, L_qq_v, force, a;
+  FreeMotion free;
 };
 
 /// @throws StepError where the mass matrix is singular
