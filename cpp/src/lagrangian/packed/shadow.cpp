@@ -4,11 +4,10 @@
 // of V = sum S_k (v_k + e a_k); at e = 0 both are V. All that moves with a body changes by a cross
 // product with its Omega, about a point O that stays where it is:
 //
-//   down:  Omega'_i = sum W_k v_k - 2 S_k a_k       V'_i = sum W_k v_k + S_k a_k   (k at or above
-//   i)
+//   down:  Omega'_i = sum W_k v_k - 2 S_k a_k       V'_i = sum W_k v_k + S_k a_k
 //          S' = V x S = W                           S'' = Omega' x S + V x W
 //          W' = V' x S + V x W                      W'' = V'' x S + 2 V' x W + V x S''
-//          V''_i = sum S''_k v_k + 2 W_k a_k
+//          V''_i = sum S''_k v_k + 2 W_k a_k        (all sums over k at or above i)
 //   body:  H = I V with I' = Omega x* I - I Omega x:
 //          H'  = I V' + V x* H
 //          H'' = I (V'' - Omega' x V - 2 V x V') + V x* (I V' + H') + Omega' x* H
