@@ -14,6 +14,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/place.cpp
   cpp/src/lagrangian/packed/products.cpp
   cpp/src/lagrangian/packed/rows.cpp
+  cpp/src/lagrangian/packed/shadow.cpp
   cpp/src/lagrangian/packed/sweep.cpp
   cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp

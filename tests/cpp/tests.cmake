@@ -18,6 +18,7 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_packed.cpp
   lagrangian/test_packed_matrix.cpp
   lagrangian/test_partials.cpp
+  lagrangian/test_shadow.cpp
 )
 set(SALTUS_TEST_collision
   collision/test_broad_phase.cpp

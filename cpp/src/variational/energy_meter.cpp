@@ -3,11 +3,13 @@
 namespace saltus {
 
 EnergyMeter::EnergyMeter(const ModelData& model)
-    : energy{0, 0, 0}, w(model.packed), M(model.tree, model.packed), products(model.packed) {
-  for (VecX* x : {&v, &L_q, &L_vq_v, &L_qq_v, &force, &a}) x->setZero(model.tree.coordinates);
+    : energy{0, 0, 0},
+      w(model.packed),
+      M(model.tree, model.packed),
+      free(model.tree, model.packed) {
+  v.setZero(model.tree.coordinates);
 }
 
-// kappa = a^T M a - v^T L_qq v with M a = L_q - L_vq v (theory, section 5); a^T M a = a . force.
 bool measure(const ModelData& model, const VecX& q, const VecX& p, double h, EnergyMeter& m) {
   const Tree& tree = model.tree;
   const PackedTree& packed = model.packed;
@@ -22,18 +24,11 @@ bool measure(const ModelData& model, const VecX& q, const VecX& p, double h, Ene
   move(packed, m.w);
   first_pass(packed, m.w);
   second_pass(packed, m.w);
-  multiply_by_rates(packed, m.w, m.products);
-  gather(tree, packed, m.w.first, 1, m.L_q);
-  gather(tree, packed, m.products.by_joint, 0, m.L_vq_v);
-  gather(tree, packed, m.products.by_joint, 2, m.L_qq_v);
-  m.force = m.L_q - m.L_vq_v;
-  m.a = m.force;
-  solve(tree, packed, m.M, m.a);
-  const double kappa = m.a.dot(m.force) - m.v.dot(m.L_qq_v);
+  free_motion(tree, packed, m.w, m.M, m.free);
 
   m.energy.kinetic = 0.5 * p.dot(m.v);
   m.energy.potential = potential_energy(packed, m.w);
-  m.energy.shadow = m.energy.kinetic + m.energy.potential - h * h * kappa / 24;
+  m.energy.shadow = m.energy.kinetic + m.energy.potential - h * h * m.free.kappa / 24;
   return true;
 }
 

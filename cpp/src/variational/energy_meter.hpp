@@ -1,7 +1,7 @@
 // Energies of states, without allocating.
 #pragma once
 
-#include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/energies.hpp"
 
@@ -16,8 +16,7 @@ struct EnergyMeter {
 
   Packed w;
   PackedMatrix M;
-  PackedProducts products;
-  VecX L_q, L_vq_v, L_qq_v, force, a;
+  FreeMotion free;
 };
 
 /// The shadow energy is that of a fixed step h.

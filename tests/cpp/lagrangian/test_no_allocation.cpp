@@ -4,6 +4,7 @@
 #include "count_allocations.hpp"
 #include "lagrangian/packed_trees.hpp"
 #include "saltus/lagrangian/partials.hpp"
+#include "saltus/lagrangian/shadow.hpp"
 
 namespace saltus {
 namespace {
@@ -39,6 +40,8 @@ TEST(Allocation, NoneInTheKernels) {
     PackedMatrix J(e.t.tree, e.packed);
     PackedProducts products(e.packed);
     SecondPartials rows(e.packed);
+    FreeMotion free(e.t.tree, e.packed);
+    ShadowTerm shadow(e.t.tree, e.packed);
     VecX x = e.t.v;
     const long before = allocations;
     set_coordinates(e.t.tree, e.packed, e.t.q, e.w);
@@ -52,6 +55,9 @@ TEST(Allocation, NoneInTheKernels) {
     multiply_pairs(e.packed, e.w, rows);
     factorize(e.t.tree, e.packed, e.w, 0.1, J);
     solve(e.t.tree, e.packed, J, x);
+    factorize(e.t.tree, e.packed, e.w, 0, J);
+    free_motion(e.t.tree, e.packed, e.w, J, free);
+    shadow_gradient(e.t.tree, e.packed, e.w, free.a, shadow);
     EXPECT_EQ(allocations, before) << k;
   }
 }

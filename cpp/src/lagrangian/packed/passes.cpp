@@ -1,4 +1,5 @@
 // Up passes in lanes: composite quantities of the subtrees and what they make (packed.hpp).
+#include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
@@ -6,28 +7,11 @@ namespace saltus {
 namespace packed {
 namespace {
 
-/// R I R^T, I symmetric.
-SALTUS_INLINE S3 rotate(const M3& R, const S3& I) {
-  // columns of R I, then its rows against those of R
-  const V3 x = I.xx * R.x + I.xy * R.y + I.xz * R.z;
-  const V3 y = I.xy * R.x + I.yy * R.y + I.yz * R.z;
-  const V3 z = I.xz * R.x + I.yz * R.y + I.zz * R.z;
-  return {x.x * R.x.x + y.x * R.y.x + z.x * R.z.x, x.x * R.x.y + y.x * R.y.y + z.x * R.z.y,
-          x.x * R.x.z + y.x * R.y.z + z.x * R.z.z, x.y * R.x.y + y.y * R.y.y + z.y * R.z.y,
-          x.y * R.x.z + y.y * R.y.z + z.y * R.z.z, x.z * R.x.z + y.z * R.y.z + z.z * R.z.z};
-}
-
 /// I_h <- the bodies' own inertias about O.
 SALTUS_INLINE void set_inertia(const double* body, const double* R, const double* p, double* I_h) {
-  const M3 frame = load9(R, 0);
-  const double m = body[0];
-  const V3 c = load3(p, 0) + frame * load3(body, 1), h = m * c;
-  const S3 I = rotate(frame, load_symmetric(body, 4));
-  const double hx = h.x * c.x, hy = h.y * c.y, hz = h.z * c.z;
-  store(I_h, 0,
-        S3{I.xx + hy + hz, I.xy - h.x * c.y, I.xz - h.x * c.z, I.yy + hx + hz, I.yz - h.y * c.z,
-           I.zz + hx + hy});
-  store(I_h, 6, h);
+  const BodyInWorld b = inertia_in_world(body, R, p);
+  store(I_h, 0, b.I);
+  store(I_h, 6, b.h);
 }
 
 SALTUS_CLONES void set_inertias(const PackedTree& t, Packed& w) {
