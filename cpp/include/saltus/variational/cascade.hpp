@@ -5,7 +5,9 @@
 //
 //   lambda_i = -(1 + e_i) u_i / G_ii,   u += G(:, i) lambda_i     until all u >= -epsilon
 //
-// Ends after finitely many impulses if all e = 1 and the cone {v: N v >= 0} has an interior.
+// Ends after finitely many impulses if all e = 1 and the cone {v: N v >= 0} has an interior. If all
+// e = 0, whatever the order, v+ is the nearest velocity in the cone: p+ = p- + N^T lambda with
+// 0 <= lambda, N v+ >= 0 and one of both 0 at each contact.
 #pragma once
 
 #include <vector>
@@ -16,10 +18,14 @@
 
 namespace saltus {
 
-/// Which of the approaching contacts is next.
+/// Which of the approaching contacts is next. Outside of what classify_impact() certifies the
+/// outcome depends on this, and each order is a convention.
 enum class ImpactOrder {
   fastest,  ///< the most negative u_i / sqrt(G_ii); ties go to the lowest index
   index,    ///< the lowest index
+  /// all of them, together: reflected in the face of their cone that is nearest, until none
+  /// approaches (generalized reflections). Keeps mirror symmetry.
+  symmetric,
 };
 
 struct CascadeOptions {
@@ -43,11 +49,13 @@ struct CascadeScratch {
   std::vector<int> winner;  ///< (2 leaves) of each match; winner[1] of all
 };
 
-/// Contact-space cascade in place: O(entries of a row) an impulse.
+/// Contact-space cascade in place: O(entries of a row) an impulse, and without allocation for the
+/// orders fastest and index unless all e are 0.
 /// @param u (m) gap rates, changed: after its impulse a contact has exactly -e u
 /// @param rest (m) epsilon_u >= 0; @param restitution (m) e in [0, 1] of each contact
 /// @param impulses appended: (index of contact, lambda) in order
 /// @return false when max_impulses did not suffice.
+/// @throws StepError when a projection (symmetric, or e = 0) is not met to 1e-10.
 SALTUS_EXPORT bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
                            const VecRef& restitution, const CascadeOptions& options,
                            CascadeScratch& scratch, std::vector<Impulse>& impulses);
