@@ -26,9 +26,6 @@ Eigen::VectorXd solve_qp(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
     qp.init(H, g, A, b, C, c, none, precondition);
   }
   qp.solve();
-  fprintf(stderr, "status %d iter %d ext %d pri %g dua %g x %g\n", int(qp.results.info.status),
-          int(qp.results.info.iter), int(qp.results.info.iter_ext), qp.results.info.pri_res,
-          qp.results.info.dua_res, qp.results.x.maxCoeff());
   return qp.results.x;
 }
 
