@@ -68,16 +68,19 @@ set(SALTUS_SOURCES
   cpp/src/variational/cascade.cpp
   cpp/src/variational/closing_arc.cpp
   cpp/src/variational/contact_problem.cpp
+  cpp/src/variational/contact_qp.cpp
   cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
   cpp/src/variational/custom_law.cpp
   cpp/src/variational/energy_meter.cpp
   cpp/src/variational/flight.cpp
+  cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp
   cpp/src/variational/node.cpp
   cpp/src/variational/pair_pool.cpp
+  cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp
   # rollout
   cpp/src/rollout/batch.cpp

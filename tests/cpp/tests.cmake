@@ -53,6 +53,7 @@ set(SALTUS_TEST_variational
   variational/test_restitution.cpp
   variational/test_stepper.cpp
   variational/test_sustained.cpp
+  variational/test_symmetric.cpp
 )
 set(SALTUS_TEST_rollout
   rollout/test_batch.cpp

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "variational/contact_problem.hpp"
+#include "variational/generalized_reflections.hpp"
 
 namespace saltus {
 namespace {
@@ -57,6 +58,13 @@ bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
              std::vector<Impulse>& impulses) {
   const int m = G.size();
   if (m == 0) return true;
+  if (m > 1 && (restitution.array() == 0).all()) {
+    project(G, u, rest, impulses);
+    return true;
+  }
+  if (options.order == ImpactOrder::symmetric) {
+    return reflect_together(G, u, rest, restitution, options.max_impulses, impulses);
+  }
   scratch.key.resize(static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) {
     scratch.key[i] = key_of(u[i], rest[i], G.diagonal[i], options.order);

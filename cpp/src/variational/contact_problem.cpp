@@ -60,7 +60,8 @@ ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref
   out.speed = std::sqrt(std::max(0.0, v.dot(M * v)));
   if (N.rows() == 0) return out;
   out.columns = llt.solve(N.transpose());
-  out.G = N * out.columns;
+  const MatX product = N * out.columns;
+  out.G = 0.5 * (product + product.transpose());
   out.u = N * v;
   out.rest = relative_rest * out.speed * out.G.diagonal().array().sqrt();
   return out;

@@ -3,41 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
 
-#include "saltus/variational/cascade.hpp"
+#include "variational/contact_problems.hpp"
 
 namespace saltus {
 namespace {
-
-VecX vec(std::initializer_list<double> values) {
-  VecX x(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), x.data());
-  return x;
-}
-
-/// Contacts between neighbours in a line: phi_i = x_{i+1} - x_i - 2r.
-MatX line(int balls) {
-  MatX N = MatX::Zero(balls - 1, balls);
-  for (int i = 0; i + 1 < balls; ++i) {
-    N(i, i) = -1;
-    N(i, i + 1) = 1;
-  }
-  return N;
-}
 
 ImpactOutcome in_line(const VecX& masses, const VecX& v, double restitution = 1,
                       const CascadeOptions& options = {}) {
   return resolve_impact(MatX(masses.asDiagonal()), line(static_cast<int>(v.size())), v, restitution,
                         options);
-}
-
-void expect_near(const VecX& actual, const VecX& expected, double tolerance) {
-  ASSERT_EQ(actual.size(), expected.size());
-  EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), tolerance)
-      << "actual " << actual.transpose() << "\nexpected " << expected.transpose();
 }
 
 struct LineCase {
@@ -139,40 +114,22 @@ TEST(ResolveImpact, GalperinsBilliardCountsTheDigitsOfPi) {
   }
 }
 
-struct CoxeterCase {
-  const char* name;
-  std::vector<std::array<int, 3>> edges;  ///< i, j, m: angle pi/m; all others pi/2
-  int rank;
-  int impulses;
-};
-
 TEST(ResolveImpact, CoxeterGroupsTakeTheirLongestElement) {
-  const std::vector<CoxeterCase> cases{{"A3", {{0, 1, 3}, {1, 2, 3}}, 3, 6},
-                                       {"B3", {{0, 1, 3}, {1, 2, 4}}, 3, 9},
-                                       {"A4", {{0, 1, 3}, {1, 2, 3}, {2, 3, 3}}, 4, 10},
-                                       {"D4", {{0, 1, 3}, {1, 2, 3}, {1, 3, 3}}, 4, 12},
-                                       {"B4", {{0, 1, 3}, {1, 2, 3}, {2, 3, 4}}, 4, 16},
-                                       {"F4", {{0, 1, 3}, {1, 2, 4}, {2, 3, 3}}, 4, 24}};
-  for (const CoxeterCase& c : cases) {
-    MatX G = MatX::Identity(c.rank, c.rank);
-    for (const auto& [i, j, m] : c.edges) G(i, j) = G(j, i) = -std::cos(std::numbers::pi / m);
+  for (const Diagram& diagram : finite_diagrams()) {
+    const MatX G = gram(diagram);
     for (const ImpactOrder order : {ImpactOrder::fastest, ImpactOrder::index}) {
-      VecX u = -VecX::LinSpaced(c.rank, 1, 1.7);  // from minus the interior of the cone
+      VecX u = -VecX::LinSpaced(diagram.rank, 1, 1.7);  // from minus the interior of the cone
       std::vector<Impulse> impulses;
-      ASSERT_TRUE(cascade(G, u, VecX::Constant(c.rank, 1e-12), VecX::Ones(c.rank), {.order = order},
-                          impulses));
-      EXPECT_EQ(impulses.size(), static_cast<std::size_t>(c.impulses)) << c.name;
-      EXPECT_GT(u.minCoeff(), 0) << c.name;
+      ASSERT_TRUE(cascade(G, u, VecX::Constant(diagram.rank, 1e-12), VecX::Ones(diagram.rank),
+                          {.order = order}, impulses));
+      EXPECT_EQ(impulses.size(), static_cast<std::size_t>(diagram.impulses)) << diagram.type;
+      EXPECT_GT(u.minCoeff(), 0) << diagram.type;
     }
   }
 }
 
 TEST(ResolveImpact, BernoullisProblemGoesByTheOrder) {
-  // Three discs r = 0.5: the cue comes along x and touches two that touch each other.
-  const double c = std::sqrt(3.) / 2;
-  MatX N = MatX::Zero(2, 6);
-  N.row(0) << -c, .5, c, -.5, 0, 0;  // cue, lower target
-  N.row(1) << -c, -.5, 0, 0, c, .5;  // cue, upper target
+  const MatX N = bernoulli();
   VecX v = VecX::Zero(6);
   v[0] = 2;
   const ImpactOutcome out = resolve_impact(MatX::Identity(6, 6), N, v);

@@ -15,10 +15,14 @@ enum class ImpactLaw {
   custom,           ///< a function of the user's, StepOptions::custom
 };
 
-/// Which of the approaching contacts is next.
+/// Which of the approaching contacts is next. Outside of what classify_impact() certifies the
+/// outcome depends on this, and each order is a convention.
 enum class ImpactOrder {
   fastest,  ///< the most negative u_i / sqrt(G_ii); ties go to the lowest index
   index,    ///< the lowest index
+  /// all of them, together: reflected in the face of their cone that is nearest, until none
+  /// approaches (generalized reflections). Keeps mirror symmetry.
+  symmetric,
 };
 
 struct StepOptions {
