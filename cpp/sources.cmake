@@ -79,6 +79,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp
   cpp/src/variational/node.cpp
+  cpp/src/variational/options.cpp
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp
@@ -127,6 +128,7 @@ set(SALTUS_BINDING_SOURCES
   # variational
   python/bindings/bind_contact_space.cpp
   python/bindings/bind_stepper.cpp
+  python/bindings/step_options.cpp
   python/bindings/bind_variational.cpp
   # rollout
   python/bindings/bind_rollout.cpp

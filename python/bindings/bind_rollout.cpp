@@ -87,6 +87,7 @@ void bind_trajectory(py::module_& m) {
       .def_property_readonly("impacts", &rows<&T::impacts>,
                              "structured array: t, first, count, contacts, law, fallback")
       .def_property_readonly("impulses", &rows<&T::impulses>, "structured array: pair, lambda")
+      .def_property_readonly("settlings", &rows<&T::settlings>, "structured array: t, pair")
       .def_readonly("iterations", &T::iterations)
       .def_readonly("residual", &T::residual)
       .def_readonly("complete", &T::complete)
@@ -96,6 +97,7 @@ void bind_trajectory(py::module_& m) {
 }  // namespace
 
 void bind_rollout(py::module_& m) {
+  PYBIND11_NUMPY_DTYPE(Settling, t, pair);
   PYBIND11_NUMPY_DTYPE(Impact, t, first, count, contacts, law, fallback);
   bind_trajectory(m);
   py::class_<Energies>(m, "Energies", energies_class_doc)

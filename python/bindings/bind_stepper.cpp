@@ -22,7 +22,7 @@ contacts : int
 law : ImpactLaw
     The law that was used.
 fallback : bool
-    discrete_energy was asked for and nodal_energy used, an impulse being too weak for it.
+    Another law was asked for and nodal_energy used, an impulse being too weak for it.
 )";
 
 constexpr auto report_doc = R"(What happened in a step.
@@ -38,6 +38,8 @@ sustained : int
 residual : float
     [largest momentum] of the worst arc.
 impacts : list of Impact
+settlings : list of (float, str)
+    Time [s] and name of each pair that bounced ever lower and has come to rest.
 )";
 
 constexpr auto stepper_doc =
@@ -51,8 +53,9 @@ Parameters
 model : Model
 h : float
     [s] step.
-law : ImpactLaw
-collisions, max_iterations, max_impacts, max_impulses, rest, simultaneous
+law : ImpactLaw or callable
+    As in `StepOptions`.
+collisions, order, max_iterations, max_impacts, max_impulses, rest, simultaneous
     As in `StepOptions`.
 
 Raises
@@ -113,6 +116,7 @@ struct NamedReport {
   int iterations, arcs, sustained;
   double residual;
   std::vector<NamedImpact> impacts;
+  std::vector<std::pair<double, std::string>> settlings;
 };
 
 /// Advancing releases the interpreter's lock, so a second thread could come in: the mutex.
@@ -131,9 +135,12 @@ struct SharedStepper {
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex);
     const StepReport& r = stepper.report();
-    NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, {}};
+    NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, {}, {}};
     for (const Impact& impact : r.impacts) {
       out.impacts.push_back(with_names(stepper.model(), r, impact));
+    }
+    for (const Settling& each : r.settlings) {
+      out.settlings.emplace_back(each.t, stepper.model().pair_name(each.pair));
     }
     return out;
   }
@@ -170,6 +177,7 @@ void bind_report(py::module_& m) {
       .def_readonly("sustained", &R::sustained)
       .def_readonly("residual", &R::residual)
       .def_readonly("impacts", &R::impacts)
+      .def_readonly("settlings", &R::settlings)
       .def("__repr__", [](const R& self) {
         return "StepReport(iterations=" + std::to_string(self.iterations) +
                ", arcs=" + std::to_string(self.arcs) +
@@ -185,15 +193,17 @@ void bind_stepper(py::module_& m) {
   using S = SharedStepper;
   const StepOptions o;
   py::class_<S>(m, "Stepper", stepper_doc)
-      .def(py::init([](const Unchecked<Model>& model, double h, const Unchecked<ImpactLaw>& law,
-                       bool collisions, int max_iterations, int max_impacts, int max_impulses,
-                       double rest, double simultaneous) {
-             const StepOptions options{h,           to_enum(law, "law"), collisions, max_iterations,
-                                       max_impacts, max_impulses,        rest,       simultaneous};
-             return std::make_unique<S>(to_model(model), options);
+      .def(py::init([](const Unchecked<Model>& model, double h, const LawChoice& law,
+                       bool collisions, const Unchecked<ImpactOrder>& order, int max_iterations,
+                       int max_impacts, int max_impulses, double rest, double simultaneous) {
+             return std::make_unique<S>(
+                 to_model(model), make_step_options(h, law, collisions, order, max_iterations,
+                                                    max_impacts, max_impulses, rest, simultaneous));
            }),
-           py::arg("model"), py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
-           py::kw_only(), py::arg("collisions") = o.collisions,
+           py::arg("model"), py::arg("h") = o.h,
+           py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"), py::kw_only(),
+           py::arg("collisions") = o.collisions,
+           py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
            py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
            py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
            py::arg("simultaneous") = o.simultaneous)

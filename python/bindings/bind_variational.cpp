@@ -12,11 +12,16 @@ constexpr auto impact_law_doc = R"(Which energy an impact conserves.
 nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
 discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
 Collisions in a Variational Framework", (11c); the step is exactly symplectic.
+shadow_energy: H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
+compensated: as discrete_energy, of arcs with L + (h^2 - tau^2) kappa / 24; the step is exactly
+symplectic, and the energy of order h^4.
+custom: a function that was given as the law.
 )";
 
 constexpr auto impact_order_doc = R"(Which of the approaching contacts is next.
 
-fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index.
+fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index;
+symmetric: all of them together, by generalized reflections, which keep mirror symmetry.
 )";
 
 constexpr auto step_options_doc = R"(How to step.
@@ -25,9 +30,12 @@ Parameters
 ----------
 h : float
     [s] step.
-law : ImpactLaw
+law : ImpactLaw or callable
+    A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
 collisions : bool
     False: bodies pass through each other.
+order : ImpactOrder
+    Which of several approaching contacts is next.
 max_iterations : int
     Newton iterations an arc; 2 to 4 are usual.
 max_impacts : int
@@ -40,16 +48,60 @@ simultaneous : float
     A contact that would close within this part of h joins an impact.
 )";
 
+constexpr auto impact_problem_doc =
+    R"(The instant of an impact, as a custom law sees it: all pairs that touch.
+
+Attributes
+----------
+t : float
+    [s]
+q, p, v : numpy.ndarray, shape (n,)
+    Before the impact; v = M^-1 p.
+M : numpy.ndarray, shape (n, n)
+    Mass matrix at q.
+N : numpy.ndarray, shape (m, n)
+    Rows are gradients of the gaps.
+u : numpy.ndarray, shape (m,)
+    [m/s] gap rates N v, negative where a pair approaches.
+restitution, friction : numpy.ndarray, shape (m,)
+    Of the materials that meet.
+pairs : list of int
+    Numbers of the pairs, as in `Model.pair_name`.
+)";
+
+void bind_impact_problem(py::module_& m) {
+  using P = ImpactProblem;
+  py::class_<P>(m, "ImpactProblem", impact_problem_doc)
+      .def_readonly("t", &P::t)
+      .def_readonly("q", &P::q)
+      .def_readonly("p", &P::p)
+      .def_readonly("v", &P::v)
+      .def_readonly("M", &P::M)
+      .def_readonly("N", &P::N)
+      .def_readonly("u", &P::u)
+      .def_readonly("restitution", &P::restitution)
+      .def_readonly("friction", &P::friction)
+      .def_readonly("pairs", &P::pairs)
+      .def("__repr__", [](const P& problem) {
+        return "<saltus.ImpactProblem: t = " + py::repr(py::float_(problem.t)).cast<std::string>() +
+               " s, " + std::to_string(problem.u.size()) + " contacts>";
+      });
+}
+
 void bind_enums(py::module_& m) {
   // IntEnum, so that a column of an array of impacts can be compared with it.
   py::native_enum<ImpactLaw>(m, "ImpactLaw", "enum.IntEnum", impact_law_doc)
       .value("nodal_energy", ImpactLaw::nodal_energy)
       .value("discrete_energy", ImpactLaw::discrete_energy)
+      .value("shadow_energy", ImpactLaw::shadow_energy)
+      .value("compensated", ImpactLaw::compensated)
+      .value("custom", ImpactLaw::custom)
       .export_values()
       .finalize();
   py::native_enum<ImpactOrder>(m, "ImpactOrder", "enum.Enum", impact_order_doc)
       .value("fastest", ImpactOrder::fastest)
       .value("index", ImpactOrder::index)
+      .value("symmetric", ImpactOrder::symmetric)
       .finalize();
 }
 
@@ -57,19 +109,16 @@ void bind_step_options(py::module_& m) {
   using O = StepOptions;
   const O o;
   py::class_<O>(m, "StepOptions", step_options_doc)
-      .def(py::init([](double h, const Unchecked<ImpactLaw>& law, bool collisions,
-                       int max_iterations, int max_impacts, int max_impulses, double rest,
-                       double simultaneous) {
-             return O{h,           to_enum(law, "law"), collisions, max_iterations,
-                      max_impacts, max_impulses,        rest,       simultaneous};
-           }),
-           py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
+      .def(py::init(&make_step_options), py::arg("h") = o.h,
+           py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"),
            py::arg("collisions") = o.collisions, py::kw_only(),
+           py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
            py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
            py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
            py::arg("simultaneous") = o.simultaneous)
       .def_readonly("h", &O::h, "[s]")
-      .def_readonly("law", &O::law)
+      .def_readonly("law", &O::law, "`ImpactLaw.custom` for a function")
+      .def_readonly("order", &O::order)
       .def_readonly("collisions", &O::collisions)
       .def_readonly("max_iterations", &O::max_iterations)
       .def_readonly("max_impacts", &O::max_impacts)
@@ -87,6 +136,7 @@ void bind_step_options(py::module_& m) {
 
 void bind_variational(py::module_& m) {
   bind_enums(m);
+  bind_impact_problem(m);
   bind_step_options(m);
 }
 

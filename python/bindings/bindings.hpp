@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/variational/options.hpp"
 #include "saltus/variational/report.hpp"
 
 namespace saltus::bindings {
@@ -48,6 +49,14 @@ struct Restitution {
   py::object value;
 };
 
+/// Which law impacts obey: one of ImpactLaw, or a function ImpactProblem -> p+.
+struct LawChoice {
+  py::object value;
+};
+
+/// Sets law and custom. @throws TypeError on what is neither.
+void set_law(const LawChoice& law, StepOptions& options);
+
 /// An argument that must be a T and may be anything: whoever takes it says what is wrong with it,
 /// where pybind11 would print the signatures that there are.
 template <class T>
@@ -65,6 +74,11 @@ Enum to_enum(const Unchecked<Enum>& x, const char* what) {
   if (!py::isinstance(x.value, kind)) refuse_choice(x.value, kind, what);
   return x.value.template cast<Enum>();
 }
+
+/// The options of a step, as both StepOptions and Stepper take them.
+StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
+                              const Unchecked<ImpactOrder>& order, int max_iterations,
+                              int max_impacts, int max_impulses, double rest, double simultaneous);
 
 /// How links and shapes are named.
 using NameOrIndex = py::typing::Union<py::str, py::int_>;
@@ -107,6 +121,17 @@ template <>
 struct type_caster<saltus::bindings::Restitution> {
   PYBIND11_TYPE_CASTER(saltus::bindings::Restitution,
                        const_name("typing.SupportsFloat | numpy.typing.ArrayLike"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+template <>
+struct type_caster<saltus::bindings::LawChoice> {
+  PYBIND11_TYPE_CASTER(
+      saltus::bindings::LawChoice,
+      const_name("ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike]"));
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

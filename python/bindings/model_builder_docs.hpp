@@ -169,7 +169,8 @@ constexpr auto adjacent_links =
 Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
 )";
 
-constexpr auto set_material = R"(Says what all shapes of a link are made of; it says nothing by itself.
+constexpr auto set_material =
+    R"(Says what all shapes of a link are made of; it says nothing by itself.
 
 Parameters
 ----------

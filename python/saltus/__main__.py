@@ -100,9 +100,15 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
     add("--h", type=float, default=0.01, metavar="S", help="[s] step; default: %(default)s")
     add(
         "--law",
-        choices=[law.name for law in saltus.ImpactLaw],
+        choices=[law.name for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom],
         default=saltus.nodal_energy.name,
         help="which energy impacts conserve; default: %(default)s",
+    )
+    add(
+        "--order",
+        choices=[order.name for order in saltus.ImpactOrder],
+        default=saltus.ImpactOrder.fastest.name,
+        help="which of several approaching contacts is next; default: %(default)s",
     )
     add("--record-every", type=int, default=1, metavar="N", help="steps between recorded rows")
     add("--no-collisions", action="store_true", help="bodies pass through each other")

@@ -29,7 +29,7 @@ def simulate_batch(
     *,
     duration: float,
     h: float = 0.01,
-    law: ImpactLaw = ImpactLaw.nodal_energy,
+    law: Law = ImpactLaw.nodal_energy,
     collisions: bool = True,
     record_every: int = 1,
     states: Sequence[State] | None = None,
@@ -55,8 +55,9 @@ def simulate_batch(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw
-        Which energy impacts conserve: `nodal_energy` or `discrete_energy`.
+    law : ImpactLaw or callable
+        Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
+        `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
         False: bodies pass through each other.
     record_every : int
@@ -74,7 +75,7 @@ def simulate_batch(
         None: a progress bar on a terminal when the batch takes longer than 2 s; True, False:
         always, never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
+        `order`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
         `StepOptions`.
 
     Returns

@@ -48,6 +48,7 @@ def simulate(chosen: argparse.Namespace) -> int:
         duration=chosen.duration,
         h=chosen.h,
         law=saltus.ImpactLaw[chosen.law],
+        order=saltus.ImpactOrder[chosen.order],
         collisions=not chosen.no_collisions,
         record_every=chosen.record_every,
     )

@@ -12,6 +12,8 @@ import numpy as np
 from saltus._core import (
     Convex,
     ImpactLaw,
+    ImpactOrder,
+    ImpactProblem,
     JointType,
     MeshUse,
     Model,
@@ -21,7 +23,7 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, Trajectory
+from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
 
 if TYPE_CHECKING:
     import h5py
@@ -106,11 +108,13 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     for name in OPTIONS:
         file.attrs[name] = getattr(run.options, name)
     file.attrs["law"] = ImpactLaw(run.options.law).name
+    file.attrs["order"] = run.options.order.name
     for name in NUMBERS:
         file.attrs[name] = getattr(run, name)
     for name in ARRAYS:
         file[name] = getattr(run, name)
     file["impulses"] = run.impulses
+    file["settlings"] = run.settlings
     # The law by name, so that other programs can read it.
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
@@ -140,6 +144,8 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     arrays: dict[str, Any] = {name: file[name][()] for name in ARRAYS}
     arrays["impulses"] = file["impulses"][()].astype(IMPULSE)
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
+    settlings = file["settlings"][()] if "settlings" in file else []  # files before 0.2 have none
+    arrays["settlings"] = np.asarray(settlings, SETTLING)
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
@@ -160,12 +166,23 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
         _check_model(model, coordinates, pairs, path)
     return Trajectory(
         model=model,
-        options=StepOptions(law=ImpactLaw[file.attrs["law"]], **options),
+        options=_step_options(file, options),
         coordinate_names=coordinates,
         pair_names=pairs,
         **arrays,
         **numbers,
     )
+
+
+def _step_options(file: h5py.File, numbers: dict[str, Any]) -> StepOptions:
+    law = ImpactLaw[file.attrs["law"]]
+    order = ImpactOrder[file.attrs.get("order", "fastest")]
+    chosen = _lost_law if law is ImpactLaw.custom else law
+    return StepOptions(law=chosen, order=order, **numbers)
+
+
+def _lost_law(_: ImpactProblem) -> np.typing.NDArray[np.float64]:
+    raise ModelError("the law of this run was a function, which its file does not hold")
 
 
 def _check_model(

@@ -11,13 +11,22 @@ from numpy.typing import ArrayLike
 from tqdm import tqdm
 
 from saltus import _core
-from saltus._core import ImpactLaw, Model, ModelError, State, StepOptions
+from saltus._core import (
+    ImpactLaw,
+    ImpactOrder,
+    ImpactProblem,
+    Model,
+    ModelError,
+    State,
+    StepOptions,
+)
 from saltus.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Progress = Callable[[float], object]
+Law = ImpactLaw | Callable[[ImpactProblem], ArrayLike]
 
 # Runs that end sooner need no bar.
 BAR_DELAY = 2.0  # [s]
@@ -25,8 +34,9 @@ BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} {unit} [{elapsed}<{remaining}]"
 
 
 class StepBounds(TypedDict, total=False):
-    """The bounds and tolerances of `StepOptions`, as keywords."""
+    """The order, bounds and tolerances of `StepOptions`, as keywords."""
 
+    order: ImpactOrder
     max_iterations: int
     max_impacts: int
     max_impulses: int
@@ -41,7 +51,7 @@ def simulate(
     *,
     duration: float,
     h: float = 0.01,
-    law: ImpactLaw = ImpactLaw.nodal_energy,
+    law: Law = ImpactLaw.nodal_energy,
     collisions: bool = True,
     record_every: int = 1,
     state: State | None = None,
@@ -61,8 +71,9 @@ def simulate(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw
-        Which energy impacts conserve: `nodal_energy` or `discrete_energy`.
+    law : ImpactLaw or callable
+        Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
+        `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
         False: bodies pass through each other.
     record_every : int
@@ -73,7 +84,7 @@ def simulate(
         None: a progress bar on a terminal when the run takes longer than 2 s; True, False: always,
         never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
+        `order`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
         `StepOptions`.
 
     Returns

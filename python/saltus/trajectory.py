@@ -23,17 +23,20 @@ IMPACT = np.dtype(
         "formats": ["f8", "i8", "i8", "i4", "u1", "?"],
     }
 )
+SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
 IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8")])
 
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
 
-def names_of_pairs(model: Model, impulses: npt.NDArray[np.void]) -> tuple[str, ...]:
-    """Name the pairs that `impulses["pair"]` refers to, counting anew where they are too many."""
+def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:
+    """Name the pairs that `events["pair"]` refer to, counting anew where they are too many."""
     if model.n_pairs <= LISTED_PAIRS:
         return tuple(model.pair_names)
-    numbers, impulses["pair"] = np.unique(impulses["pair"], return_inverse=True)
+    numbers = np.unique(np.concatenate([event["pair"] for event in events]))
+    for event in events:
+        event["pair"] = np.searchsorted(numbers, event["pair"])
     return tuple(model.pair_name(int(number)) for number in numbers)
 
 
@@ -62,6 +65,8 @@ class Trajectory:
         "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
     impulses : numpy.ndarray
         Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s].
+    settlings : numpy.ndarray
+        Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
     iterations : int
         Newton iterations in all.
     residual : float
@@ -86,6 +91,7 @@ class Trajectory:
     shadow: Array
     impacts: npt.NDArray[np.void]
     impulses: npt.NDArray[np.void]
+    settlings: npt.NDArray[np.void]
     iterations: int
     residual: float
     complete: bool
@@ -99,9 +105,10 @@ class Trajectory:
         impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
         impulses["pair"] = core.impulses["pair"]
         impulses["lambda"] = core.impulses["lambda"]
+        settlings = core.settlings.astype(SETTLING)
         model = core.model
-        pair_names = names_of_pairs(model, impulses)
-        for array in (impacts, impulses):
+        pair_names = names_of_pairs(model, impulses, settlings)
+        for array in (impacts, impulses, settlings):
             array.flags.writeable = False
         names = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
         numbers = ("iterations", "residual", "complete", "energy_error")
@@ -112,6 +119,7 @@ class Trajectory:
             pair_names=pair_names,
             impacts=impacts,
             impulses=impulses,
+            settlings=settlings,
             **{name: getattr(core, name) for name in (*names, *numbers)},
         )
 

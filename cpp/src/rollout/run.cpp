@@ -22,14 +22,11 @@ void check_numbers(double duration, const SimulateOptions& options) {
 /// What is set in options.step and not used must be what is used.
 void check_no_contradiction(const SimulateOptions& options) {
   const StepOptions &step = options.step, unset;
-  const auto name = [](ImpactLaw law) {
-    return law == ImpactLaw::nodal_energy ? "nodal_energy" : "discrete_energy";
-  };
   std::ostringstream text;
   if (step.h != unset.h && step.h != options.h) {
     text << "step.h = " << step.h << " s, but h = " << options.h << " s";
   } else if (step.law != unset.law && step.law != options.law) {
-    text << "step.law = " << name(step.law) << ", but law = " << name(options.law);
+    text << "step.law = " << law_name(step.law) << ", but law = " << law_name(options.law);
   } else if (step.collisions != unset.collisions && step.collisions != options.collisions) {
     text << "step.collisions = false, but collisions = true";
   }
@@ -59,6 +56,8 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
     outcome.impacts.push_back(impact);
   }
   outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
+  outcome.settlings.insert(outcome.settlings.end(), report.settlings.begin(),
+                           report.settlings.end());
   outcome.iterations += report.iterations;
   outcome.residual = std::max(outcome.residual, report.residual);
 }

@@ -15,14 +15,24 @@ double normal_energy(const Node& node, const Impulse& impulse) {
   return u_G * u_G * node.G.diagonal[impulse.pair] / 2;
 }
 
+/// What restitution takes: T changes by lambda . (u- + u+) / 2, whatever the order of the impulses.
+double lost_energy(const Node& node) {
+  double gained = 0;
+  bool elastic = true;
+  for (const Impulse& impulse : node.impulses) {
+    const double before = node.contacts[impulse.pair].u, after = node.u[impulse.pair];
+    gained += impulse.lambda * (before + after) / 2;
+    elastic = elastic && node.restitution[impulse.pair] == 1;
+  }
+  return elastic ? 0 : -gained;  // not the rounding of nothing
+}
+
 /// Says what the arc after the impact has to match, and by a change of which impulse: the last
 /// strong one (theory, section 5, warning a).
 void prepare_launch(double energy, Node& node) {
-  double strongest = 0, lost = 0;
+  double strongest = 0;
   for (const Impulse& impulse : node.impulses) {
-    const double e = node.restitution[impulse.pair], part = normal_energy(node, impulse);
-    strongest = std::max(strongest, part);
-    lost += (1 - e * e) * part;
+    strongest = std::max(strongest, normal_energy(node, impulse));
   }
   for (const Impulse& impulse : node.impulses) {
     const double part = normal_energy(node, impulse);
@@ -32,7 +42,7 @@ void prepare_launch(double energy, Node& node) {
     add(node.trees, 1, node.contacts[impulse.pair].n, node.launch.n);
   }
   node.launch.pending = true;
-  node.launch.energy = energy - lost;
+  node.launch.energy = energy - lost_energy(node);
 }
 
 /// v from p, and what every contact does now.

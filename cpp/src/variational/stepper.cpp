@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "variational/check_options.hpp"
 #include "variational/flight.hpp"
 #include "variational/impact_time.hpp"
 
@@ -42,26 +43,6 @@ struct Stepper::Impl {
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
 };
-
-namespace {
-
-void check_options(const StepOptions& o) {
-  const auto fail = [](const std::string& name, double value, const std::string& range) {
-    std::ostringstream text;
-    text << name << " = " << value << "; it must be " << range;
-    throw ModelError(text.str());
-  };
-  if (!(o.h > 0) || !std::isfinite(o.h)) fail("h", o.h, "positive and finite [s]");
-  if (o.max_iterations < 1) fail("max_iterations", o.max_iterations, "at least 1");
-  if (o.max_impacts < 1) fail("max_impacts", o.max_impacts, "at least 1");
-  if (o.max_impulses < 1) fail("max_impulses", o.max_impulses, "at least 1");
-  if (!(o.rest >= 0 && o.rest < 1)) fail("rest", o.rest, "in [0, 1)");
-  if (!(o.simultaneous >= 0 && o.simultaneous < 1)) {
-    fail("simultaneous", o.simultaneous, "in [0, 1)");
-  }
-}
-
-}  // namespace
 
 Stepper::Stepper(const Model& model, const StepOptions& options) {
   check_options(options);

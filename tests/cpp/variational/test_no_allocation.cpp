@@ -1,6 +1,8 @@
 // A step after the first allocates nothing, impacts included.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "count_allocations.hpp"
 #include "scenes.hpp"
 
@@ -10,18 +12,37 @@ namespace {
 using scenes::cradle;
 using test::allocations;
 
-TEST(Stepper, AStepAfterTheFirstAllocatesNothing) {
-  const Model model = cradle({.balls = 5});
-  Stepper stepper(model, {.h = 0.01});
-  State state = model.state({{"swing_0", 0.3}, {"swing_1", 0.3}, {"sway_0", 0.05}});
-  for (int k = 0; k < 60; ++k) stepper.step(state);  // past the first impact
+/// Allocations and impacts of 300 steps, once 60 have been made.
+std::pair<long, int> count(const Model& model, State state, const StepOptions& options) {
+  Stepper stepper(model, options);
+  for (int k = 0; k < 60; ++k) stepper.step(state);
   const long before = allocations;
   int impacts = 0;
   for (int k = 0; k < 300; ++k) {
     stepper.step(state);
     impacts += static_cast<int>(stepper.report().impacts.size());
   }
-  EXPECT_EQ(allocations, before);
+  return {allocations - before, impacts};
+}
+
+TEST(Stepper, AStepAfterTheFirstAllocatesNothing) {
+  const Model model = cradle({.balls = 5});
+  const State start = model.state({{"swing_0", 0.3}, {"swing_1", 0.3}, {"sway_0", 0.05}});
+  for (const ImpactLaw law : {ImpactLaw::nodal_energy, ImpactLaw::discrete_energy,
+                              ImpactLaw::shadow_energy, ImpactLaw::compensated}) {
+    const auto [allocated, impacts] = count(model, start, {.h = 0.01, .law = law});
+    EXPECT_EQ(allocated, 0) << law_name(law);
+    EXPECT_GT(impacts, 2);
+  }
+}
+
+TEST(Stepper, ABallThatBouncesAndComesToRestAllocatesNothing) {
+  ModelBuilder b("ball");
+  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, 0.1);
+  b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({0.5, 0});
+  const Model model = b.build();
+  const auto [allocated, impacts] = count(model, model.state({{"height", 1.1}}), {.h = 0.005});
+  EXPECT_EQ(allocated, 0);
   EXPECT_GT(impacts, 2);
 }
 

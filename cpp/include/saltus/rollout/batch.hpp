@@ -27,11 +27,12 @@ struct BatchOptions {
 struct RunOutcome {
   std::vector<Impact> impacts;    ///< in order of time; `first` counts into `impulses`
   std::vector<Impulse> impulses;  ///< of all its impacts
-  long iterations = 0;            ///< Newton iterations in all
-  double residual = 0;            ///< [largest momentum] the worst of any step
-  Eigen::Index rows = 1;          ///< that were reached; the others are NaN
-  bool complete = false;          ///< false: failed, or stopped on request before `duration`
-  std::string failure;            ///< what its error says, "" if there was none
+  std::vector<Settling> settlings;
+  long iterations = 0;    ///< Newton iterations in all
+  double residual = 0;    ///< [largest momentum] the worst of any step
+  Eigen::Index rows = 1;  ///< that were reached; the others are NaN
+  bool complete = false;  ///< false: failed, or stopped on request before `duration`
+  std::string failure;    ///< what its error says, "" if there was none
 };
 
 /// Run i has the rows [i * rows, (i + 1) * rows) of q, v and p, and row i of the energies. Rows

@@ -1,6 +1,9 @@
 // How to step: the step size, the law at impacts, bounds and tolerances with their reasons.
 #pragma once
 
+#include <string>
+
+#include "saltus/error.hpp"
 #include "saltus/variational/impact_problem.hpp"
 
 namespace saltus {
@@ -14,6 +17,9 @@ enum class ImpactLaw {
   compensated,      ///< (11c) with arcs of L + (h^2 - tau^2) kappa / 24: symplectic, and O(h^4)
   custom,           ///< a function of the user's, StepOptions::custom
 };
+
+/// "nodal_energy", ...
+SALTUS_EXPORT std::string law_name(ImpactLaw law);
 
 /// Which of the approaching contacts is next. Outside of what classify_impact() certifies the
 /// outcome depends on this, and each order is a convention.

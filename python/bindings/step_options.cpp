@@ -1,0 +1,61 @@
+// From what a user writes for the options of a step to StepOptions.
+#include <memory>
+
+#include "bindings.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+VecX to_momenta(const py::object& answer) {
+  try {
+    return answer.cast<VecX>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("the custom law returned " + py::repr(answer).cast<std::string>() +
+                         "; it is to return the momenta after, an array of shape (n,)");
+  }
+}
+
+/// Steps run without the interpreter's lock, and copy their options without it too: the count of
+/// references lies behind a pointer of C++'s own.
+ImpactFunction asking_python_law(const py::object& law) {
+  const std::shared_ptr<py::object> shared(new py::object(law), [](py::object* held) {
+    const py::gil_scoped_acquire acquire;
+    delete held;
+  });
+  return [shared](const ImpactProblem& problem) {
+    const py::gil_scoped_acquire acquire;
+    return to_momenta((*shared)(py::cast(problem)));
+  };
+}
+
+}  // namespace
+
+void set_law(const LawChoice& law, StepOptions& options) {
+  const py::object kind = py::type::of(py::cast(ImpactLaw::nodal_energy));
+  if (py::isinstance(law.value, kind)) {
+    options.law = law.value.cast<ImpactLaw>();
+  } else if (PyCallable_Check(law.value.ptr()) != 0) {
+    options.law = ImpactLaw::custom;
+    options.custom = asking_python_law(law.value);
+  } else {
+    refuse_choice(law.value, kind, "law");
+  }
+}
+
+StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
+                              const Unchecked<ImpactOrder>& order, int max_iterations,
+                              int max_impacts, int max_impulses, double rest, double simultaneous) {
+  StepOptions options;
+  options.h = h;
+  set_law(law, options);
+  options.collisions = collisions;
+  options.order = to_enum(order, "order");
+  options.max_iterations = max_iterations;
+  options.max_impacts = max_impacts;
+  options.max_impulses = max_impulses;
+  options.rest = rest;
+  options.simultaneous = simultaneous;
+  return options;
+}
+
+}  // namespace saltus::bindings
