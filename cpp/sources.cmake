@@ -80,6 +80,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/launch.cpp
   cpp/src/variational/node.cpp
   cpp/src/variational/options.cpp
+  cpp/src/variational/overlap.cpp
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp

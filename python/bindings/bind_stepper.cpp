@@ -2,6 +2,7 @@
 #include <mutex>
 
 #include "bindings.hpp"
+#include "saltus/variational/overlap.hpp"
 #include "saltus/variational/stepper.hpp"
 
 namespace saltus::bindings {
@@ -82,6 +83,28 @@ StepError
     When an arc does not converge or the impacts of the step do not end.
 JammedError
     When the impulses at one instant do not end.
+)";
+
+constexpr auto resolve_overlap_doc = R"(The nearest configuration without overlap.
+
+Moves bodies out of each other as little as the kinetic metric allows, step by step: each
+minimizes |dq|_M subject to phi + phi_q dq >= 0.
+
+Parameters
+----------
+model : Model
+q : mapping of names to values, or array_like, shape (n,)
+    [rad | m] coordinates; those not named are 0.
+
+Returns
+-------
+numpy.ndarray, shape (n,)
+
+Raises
+------
+ModelError
+    Where `q` does not fit the model; where pairs still overlap in the end: names them and their
+    depths.
 )";
 
 const Model& to_model(const Unchecked<Model>& model) {
@@ -188,6 +211,15 @@ void bind_report(py::module_& m) {
 }  // namespace
 
 void bind_stepper(py::module_& m) {
+  m.def(
+      "resolve_overlap",
+      [](const Unchecked<Model>& model, const Coordinates& q) {
+        const Model& checked = to_model(model);
+        const VecX start = to_vector(q, checked, "q");
+        const py::gil_scoped_release release;
+        return resolve_overlap(checked, start);
+      },
+      resolve_overlap_doc, py::arg("model"), py::arg("q"));
   bind_impact(m);
   bind_report(m);
   using S = SharedStepper;

@@ -47,6 +47,7 @@ set(SALTUS_TEST_variational
   variational/test_cradle.cpp
   variational/test_discrete_energy.cpp
   variational/test_forget.cpp
+  variational/test_hard_cases.cpp
   variational/test_laws.cpp
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp

@@ -40,6 +40,11 @@ PREDICTED = {
         "leave as [-2.0, 0.0, 1.0, 1.0, 3.0], 7 impulses",
         "digits of pi: 3 31 314 3141",
     ],
+    "laws": [
+        "nodal_energy: 99 impacts, error of H below 2e-06 J\n",
+        "discrete_energy: 99 impacts, error of H above 1e-04 J\n",
+        "shadow_energy: 99 impacts, error of H below 2e-06 J, the shadow energy is kept to 1e-9 J",
+    ],
     "own_robot": [
         'names child link "wieght", which does not exist; links are shaft, weight',
         "height after 1 s: -4.905000 m",

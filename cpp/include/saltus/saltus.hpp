@@ -7,4 +7,5 @@
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 #include "saltus/variational/cascade.hpp"
+#include "saltus/variational/overlap.hpp"
 #include "saltus/variational/stepper.hpp"

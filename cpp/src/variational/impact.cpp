@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/contact_qp.hpp"
 #include "variational/custom_law.hpp"
 #include "variational/node.hpp"
 
@@ -74,6 +75,17 @@ void tell(const Node& node, ImpactLaw law, StepReport& report) {
 }
 
 }  // namespace
+
+bool can_open(const Node& node) {
+  const ContactMatrix& sparse = node.G;
+  MatX G = MatX::Zero(sparse.size(), sparse.size());
+  for (int i = 0; i < sparse.size(); ++i) {
+    for (int k = sparse.start[i]; k < sparse.start[i + 1]; ++k) {
+      G(i, sparse.column[k]) = sparse.value[k];
+    }
+  }
+  return cone_interior(G) > 0;
+}
 
 bool resolve_node_impact(const ModelData& model, const StepOptions& options, double energy,
                          Node& node, StepReport& report) {

@@ -115,6 +115,9 @@ double node_energy(const ModelData& model, const Node& node);
 
 // impact.cpp
 
+/// Is there a motion that opens all contacts? Needs the contact matrix.
+bool can_open(const Node& node);
+
 /// Resolves the impact at the node: changes p, v and launch, appends to the report.
 /// @param energy [J] what options.law conserves, before the impact; of no use to nodal_energy
 /// @return false when the cascade does not end (JammedError is the caller's)

@@ -123,7 +123,8 @@ void Stepper::Impl::check_overlap() const {
   if (found == 0) return;
   if (found > 5) text << " and " << found - 5 << " pairs more";
   throw ModelError("bodies overlap at the start: " + text.str() +
-                   "; move them apart, exclude the pair, or step without collisions");
+                   "; move them apart (resolve_overlap does), exclude the pair, or step without "
+                   "collisions");
 }
 
 void Stepper::Impl::fly_one_arc(double left) {
@@ -246,7 +247,10 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
 void Stepper::Impl::fail_jammed() const {
   std::ostringstream text;
   text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
-       << " impulses: bodies jammed at " << contact_list();
+       << " impulses: "
+       << (can_open(node) ? "more may do (max_impulses) at "
+                          : "no motion opens all of, jammed are ")
+       << contact_list();
   throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
 }
 
