@@ -64,15 +64,18 @@ set(SALTUS_SOURCES
   # variational
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
+  cpp/src/variational/certificate.cpp
   cpp/src/variational/closing_arc.cpp
   cpp/src/variational/contact_problem.cpp
   cpp/src/variational/contact_qp.cpp
   cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
+  cpp/src/variational/coxeter.cpp
   cpp/src/variational/flight.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/node.cpp
+  cpp/src/variational/outcomes.cpp
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp

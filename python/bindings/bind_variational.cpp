@@ -16,7 +16,9 @@ Collisions in a Variational Framework", (11c); the step is exactly symplectic.
 
 constexpr auto impact_order_doc = R"(Which of the approaching contacts is next.
 
-fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index.
+fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
+symmetric: all of them together, reflected in the face of their cone that is nearest; keeps mirror
+symmetry (D. Kaufman et al., "Reflections on Simultaneous Impact", SIGGRAPH 2012).
 )";
 
 constexpr auto step_options_doc = R"(How to step.
@@ -50,6 +52,7 @@ void bind_enums(py::module_& m) {
   py::native_enum<ImpactOrder>(m, "ImpactOrder", "enum.Enum", impact_order_doc)
       .value("fastest", ImpactOrder::fastest)
       .value("index", ImpactOrder::index)
+      .value("symmetric", ImpactOrder::symmetric)
       .finalize();
 }
 
