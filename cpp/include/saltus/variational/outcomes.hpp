@@ -13,8 +13,8 @@
 namespace saltus {
 
 struct OutcomesOptions {
-  int max_outcomes = 1000;    ///< more are a ModelError
-  long max_states = 1000000;  ///< velocities on the way; more are a ModelError. m numbers each
+  int max_outcomes = 1000;   ///< more are a ModelError
+  long max_states = 400000;  ///< velocities on the way, m numbers each; more are a ModelError
   /// A gap rate below this part of |v|_M sqrt(G_ii) waits until no other contact approaches, and
   /// outcomes that differ by less than this part of |v|_M are one.
   double tolerance = 1e-9;
