@@ -164,7 +164,7 @@ Examples
 >>> import saltus
 >>> N = [[-0.8, 0.6, 0.8, -0.6, 0, 0], [-0.8, -0.6, 0, 0, 0.8, 0.6]]  # a disc hits two
 >>> saltus.impact_outcomes([[i == j for j in range(6)] for i in range(6)], N, [1, 0, 0, 0, 0, 0])
-<ImpactOutcomes: 2 outcomes, spread 36 % of v, 5 velocities met>
+<ImpactOutcomes: 2 outcomes, spread 42 % of v, 5 velocities met>
 )";
 
 VecX to_vector(const Restitution& restitution, Eigen::Index contacts) {
