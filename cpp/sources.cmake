@@ -66,6 +66,7 @@ set(SALTUS_SOURCES
   # variational
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
+  cpp/src/variational/certificate.cpp
   cpp/src/variational/closing_arc.cpp
   cpp/src/variational/contact_problem.cpp
   cpp/src/variational/contact_qp.cpp
@@ -73,6 +74,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/contact_vector.cpp
   cpp/src/variational/custom_law.cpp
   cpp/src/variational/energy_meter.cpp
+  cpp/src/variational/coxeter.cpp
   cpp/src/variational/flight.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/impact.cpp
@@ -81,6 +83,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/node.cpp
   cpp/src/variational/options.cpp
   cpp/src/variational/overlap.cpp
+  cpp/src/variational/outcomes.cpp
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp

@@ -59,7 +59,8 @@ find_package(assimp REQUIRED)
 # Assimp's own libraries (zlib, on Debian draco) are its shared library's affair: no need to have them for linking.
 set_property(TARGET assimp::assimp PROPERTY INTERFACE_LINK_LIBRARIES "")
 # ProxSuite is headers only. Its own config asks for what its Python module and its vectorised variant need; we don't.
-find_path(SALTUS_PROXSUITE_INCLUDE_DIR proxsuite/proxqp/dense/dense.hpp)
+# No cache: the environment of an isolated build of pip is gone the next time.
+find_path(SALTUS_PROXSUITE_INCLUDE_DIR proxsuite/proxqp/dense/dense.hpp NO_CACHE)
 if(NOT SALTUS_PROXSUITE_INCLUDE_DIR)
   message(FATAL_ERROR "ProxSuite not found: pip install proxsuite, or unpack https://github.com/Simple-Robotics/proxsuite "
     "(headers only) and give -DSALTUS_PROXSUITE_INCLUDE_DIR=.../include")

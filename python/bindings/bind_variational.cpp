@@ -20,8 +20,9 @@ custom: a function that was given as the law.
 
 constexpr auto impact_order_doc = R"(Which of the approaching contacts is next.
 
-fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index;
-symmetric: all of them together, by generalized reflections, which keep mirror symmetry.
+fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
+symmetric: all of them together, reflected in the face of their cone that is nearest; keeps mirror
+symmetry (D. Kaufman et al., "Reflections on Simultaneous Impact", SIGGRAPH 2012).
 )";
 
 constexpr auto step_options_doc = R"(How to step.

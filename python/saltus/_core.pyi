@@ -25,9 +25,12 @@ __all__: list[str] = [
     "Gaps",
     "HalfSpace",
     "Impact",
+    "ImpactCertificate",
+    "ImpactKind",
     "ImpactLaw",
     "ImpactOrder",
     "ImpactOutcome",
+    "ImpactOutcomes",
     "JammedError",
     "JointInfo",
     "JointType",
@@ -51,11 +54,13 @@ __all__: list[str] = [
     "Trajectory",
     "TreeSolution",
     "TreeSolver",
+    "classify_impact",
     "discrete_energy",
     "energies",
     "gap",
     "gap_table",
     "has_gap",
+    "impact_outcomes",
     "nodal_energy",
     "read_urdf",
     "resolve_impact",
@@ -1236,11 +1241,14 @@ class ImpactOrder(enum.Enum):
     """
     Which of the approaching contacts is next.
 
-    fastest: the most negative u / sqrt(G), ties go to the lowest index; index: the lowest index.
+    fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
+    symmetric: all of them together, reflected in the face of their cone that is nearest; keeps mirror
+    symmetry (D. Kaufman et al., "Reflections on Simultaneous Impact", SIGGRAPH 2012).
     """
 
     fastest = ...
     index = ...
+    symmetric = ...
 
 class StepOptions:
     """
@@ -1311,6 +1319,105 @@ class ImpactOutcome:
     def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         velocity after, shape (n,)
+        """
+
+class ImpactKind(enum.Enum):
+    """
+    What can be said of an impact for all velocities at once.
+
+    unique: the velocity after does not depend on the order of impulses. order_dependent: there are
+    velocities for which it does, and any single answer is a convention. jammed: no velocity opens all
+    gaps, impulses need not end.
+    """
+
+    jammed = ...
+    order_dependent = ...
+    unique = ...
+
+class ImpactCertificate:
+    """
+    Whether the outcome of an impact is unique, and why.
+
+    Attributes
+    ----------
+    kind : ImpactKind
+    type : str
+        If unique, the groups of contacts that feel each other, as finite reflection groups: "A3 x A1";
+        "plastic" where all restitutions are 0. Else empty.
+    impulses : int or None
+        At most so many at one instant; None where no bound is known.
+    angles : ndarray, shape (m, m)
+        [rad] Wedge angles, `cos angles[i, j] = -G[i, j] / sqrt(G[i, i] G[j, j])`; pi on the diagonal.
+    interior : float
+        How fast all gaps can open at once: the largest d with `N w >= d sqrt(diag G)`, `w . M w = 1`;
+        0 if none is positive.
+    same : list of int
+        The first contact with each one's normal, mostly the contact itself: equal normals count once.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def angles(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [rad] wedge angles, shape (m, m)
+        """
+    @property
+    def impulses(self) -> int | None:
+        """
+        the greatest number, if known
+        """
+    @property
+    def interior(self) -> float:
+        """
+        how fast all gaps can open at once
+        """
+    @property
+    def kind(self) -> ImpactKind: ...
+    @property
+    def same(self) -> list[int]:
+        """
+        the first contact with each one's normal
+        """
+    @property
+    def type(self) -> str:
+        """
+        the groups of contacts, if unique
+        """
+
+class ImpactOutcomes:
+    """
+    All that an impact can come to, by every order of impulses.
+
+    Attributes
+    ----------
+    outcomes : list of ImpactOutcome
+        With one order of impulses for each. The first is that of `ImpactOrder.index`.
+    spread : float
+        [sqrt(J)] The largest distance of two outcomes in the kinetic metric, `sqrt(d . M d)`.
+    relative_spread : float
+        Of the velocity's own size in this metric; at most 2.
+    states : int
+        Velocities met on the way.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def outcomes(self) -> list[ImpactOutcome]:
+        """
+        with one order of impulses for each
+        """
+    @property
+    def relative_spread(self) -> float:
+        """
+        of the velocity's own size
+        """
+    @property
+    def spread(self) -> float:
+        """
+        [sqrt(J)] largest distance of two
+        """
+    @property
+    def states(self) -> int:
+        """
+        velocities met on the way
         """
 
 class Impact:
@@ -1623,6 +1730,49 @@ class BatchTrajectory:
         [rad/s | m/s] shape (runs, rows, n)
         """
 
+def classify_impact(
+    M: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    N: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    *,
+    restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
+    tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+) -> ImpactCertificate:
+    """
+    Is the outcome of contacts at one instant unique? What their angles tell.
+
+    With `G = N M^-1 N^T` contacts are mirrors at the angles theta, `cos theta = -G_ij / sqrt(G_ii
+    G_jj)`. Elastic impacts on two contacts are unique if and only if theta = pi/m; those on many if
+    every theta is pi/m and the mirrors make a finite group (J. Humphreys, Reflection Groups and Coxeter
+    Groups, 2.4), and then the number of impulses does not depend on the order either.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        Mass matrix, positive definite.
+    N : array_like, shape (m, n)
+        Rows are gradients of the gaps.
+    restitution : float or array_like, shape (m,)
+        e in [0, 1], of all contacts or of each. With e < 1 only contacts that do not feel each other
+        have a unique outcome; with all e = 0 any.
+    tolerance : float
+        An angle is pi/m if m theta / pi is 1 to this.
+
+    Returns
+    -------
+    ImpactCertificate
+
+    Raises
+    ------
+    ModelError
+        On arguments as for `resolve_impact`, and on a tolerance outside (0, 1e-3].
+
+    Examples
+    --------
+    >>> import saltus
+    >>> saltus.classify_impact(M=[[1, 0, 0], [0, 1, 0], [0, 0, 1]], N=[[-1, 1, 0], [0, -1, 1]])
+    <ImpactCertificate: unique, A2, at most 3 impulses>
+    """
+
 def energies(
     model: Model, state: State, h: typing.SupportsFloat | typing.SupportsIndex
 ) -> Energies:
@@ -1684,6 +1834,58 @@ def has_gap(
     True where `gap` knows the two kinds of shape, in either order.
     """
 
+def impact_outcomes(
+    M: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    N: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    *,
+    restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
+    max_outcomes: typing.SupportsInt | typing.SupportsIndex = 1000,
+    max_states: typing.SupportsInt | typing.SupportsIndex = 400000,
+    tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+) -> ImpactOutcomes:
+    """
+    Every order of impulses, searched depth first.
+
+    A velocity that was met before is not searched again: equal balls in a line take N! velocities, not
+    all orders.
+
+    Parameters
+    ----------
+    M : array_like, shape (n, n)
+        Mass matrix, positive definite.
+    N : array_like, shape (m, n)
+        Rows are gradients of the gaps.
+    v : array_like, shape (n,)
+        Velocity before.
+    restitution : float or array_like, shape (m,)
+        e in [0, 1], of all contacts or of each.
+    max_outcomes : int
+    max_states : int
+        Velocities on the way.
+    tolerance : float
+        Outcomes that differ by less than this part of the velocity are one, and slower approaches wait
+        until no other contact approaches.
+
+    Returns
+    -------
+    ImpactOutcomes
+
+    Raises
+    ------
+    ModelError
+        On arguments as for `resolve_impact`, and where a bound does not suffice.
+    JammedError
+        Where impulses lead back to a velocity that they came from, or have no end.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> N = [[-0.8, 0.6, 0.8, -0.6, 0, 0], [-0.8, -0.6, 0, 0, 0.8, 0.6]]  # a disc hits two
+    >>> saltus.impact_outcomes([[i == j for j in range(6)] for i in range(6)], N, [1, 0, 0, 0, 0, 0])
+    <ImpactOutcomes: 2 outcomes, spread 42 % of v, 5 velocities met>
+    """
+
 def read_urdf(
     path_or_text: str | os.PathLike[str],
     *,
@@ -1730,17 +1932,21 @@ def resolve_impact(
     N: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
     v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
     *,
-    restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
     order: ImpactOrder = ...,
     max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
 ) -> ImpactOutcome:
     """
     Impulses at one instant: while some contact approaches, reflect on one that does.
 
-    In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e) u_i / G_ii`,
+    In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e_i) u_i / G_ii`,
     `u += G[:, i] lambda_i`. Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational
-    Framework", (4), (5) and section III-D. Ends after finitely many impulses if e = 1 and the cone
+    Framework", (4), (5) and section III-D. Ends after finitely many impulses if all e = 1 and the cone
     {v: N v >= 0} has an interior.
+
+    The order `ImpactOrder.symmetric` reflects on all that approach together, and `restitution=0` for
+    all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
+    order matters, `impact_outcomes` by how much.
 
     Parameters
     ----------
@@ -1750,8 +1956,8 @@ def resolve_impact(
         Rows are gradients of the gaps.
     v : array_like, shape (n,)
         Velocity before.
-    restitution : float
-        e in [0, 1].
+    restitution : float or array_like, shape (m,)
+        e in [0, 1], of all contacts or of each.
     order : ImpactOrder
     max_impulses : int
 

@@ -44,11 +44,14 @@ set(SALTUS_TEST_model
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_certificate.cpp
+  variational/test_contact_space.cpp
   variational/test_cradle.cpp
   variational/test_discrete_energy.cpp
   variational/test_forget.cpp
   variational/test_hard_cases.cpp
   variational/test_laws.cpp
+  variational/test_impact_outcomes.cpp
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_resting.cpp

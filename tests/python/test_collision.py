@@ -63,7 +63,10 @@ def test_newtons_cradle_at_one_instant():
     assert "2 impulses" in repr(outcome)
 
 
-@given(st.lists(st.floats(-10, 10), min_size=2, max_size=7), st.sampled_from(ImpactOrder))
+ONE_AFTER_THE_OTHER = [ImpactOrder.fastest, ImpactOrder.index]
+
+
+@given(st.lists(st.floats(-10, 10), min_size=2, max_size=7), st.sampled_from(ONE_AFTER_THE_OTHER))
 def test_equal_balls_sort_their_velocities(v, order):
     outcome = saltus.resolve_impact(np.eye(len(v)), in_line(len(v)), v, order=order)
     np.testing.assert_allclose(outcome.v, sorted(v), atol=1e-12)

@@ -8,4 +8,6 @@
 #include "saltus/urdf/load_urdf.hpp"
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/overlap.hpp"
+#include "saltus/variational/certificate.hpp"
+#include "saltus/variational/outcomes.hpp"
 #include "saltus/variational/stepper.hpp"

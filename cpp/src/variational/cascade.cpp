@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "variational/contact_problem.hpp"
+#include "variational/contact_qp.hpp"
 #include "variational/generalized_reflections.hpp"
 
 namespace saltus {
@@ -104,8 +105,14 @@ ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<c
   VecX& u = problem.u;
   if (!cascade(problem.G, u, problem.rest, restitution, options, out.impulses)) {
     std::ostringstream text;
-    text << "the impact does not end within " << options.max_impulses
-         << " impulses: bodies jammed between others, or max_impulses is too small";
+    text << "the impact does not end within " << options.max_impulses << " impulses: ";
+    const double interior = cone_interior(problem.G);
+    if (interior == 0) {
+      text << "bodies jammed between others, no velocity opens all " << N.rows() << " gaps";
+    } else {
+      text << "the " << N.rows() << " gaps can open, but at no more than " << interior
+           << " of |v| at once, because masses or normals are so unlike; raise max_impulses";
+    }
     throw JammedError(text.str(), 0, u.minCoeff(), options.max_impulses);
   }
   for (const Impulse& impulse : out.impulses) {

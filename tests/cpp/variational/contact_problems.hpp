@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -96,6 +97,14 @@ inline MatX gram(const Diagram& diagram) {
   MatX G = MatX::Identity(diagram.rank, diagram.rank);
   for (const auto& [i, j, m] : diagram.edges) G(i, j) = G(j, i) = -std::cos(std::numbers::pi / m);
   return G;
+}
+
+/// Normals with this Gram matrix.
+inline MatX normals(const MatX& G) { return Eigen::LLT<Eigen::MatrixXd>(G).matrixL(); }
+
+/// Two contacts that meet at this angle.
+inline MatX wedge(double theta) {
+  return (MatX(2, 2) << 1, 0, -std::cos(theta), std::sin(theta)).finished();
 }
 
 inline MatX random_matrix(int rows, int columns, std::mt19937& random) {

@@ -203,6 +203,17 @@ TEST(ResolveImpact, ABallJammedBetweenWallsIsAnErrorNotALoop) {
     FAIL() << "expected JammedError";
   } catch (const JammedError& e) {
     EXPECT_EQ(e.iterations, 1000);
+    EXPECT_STREQ(e.what(),
+                 "the impact does not end within 1000 impulses: bodies jammed between others, no "
+                 "velocity opens all 2 gaps");
+  }
+  try {  // Galperin's: 31415 impulses
+    resolve_impact(MatX(vec({1, 1e8}).asDiagonal()), (MatX(2, 2) << 1, 0, -1, 1).finished(),
+                   vec({0, -1}), 1, {.max_impulses = 1000});
+    FAIL() << "expected JammedError";
+  } catch (const JammedError& e) {
+    EXPECT_NE(std::string(e.what()).find("no more than 5e-05 of |v|"), std::string::npos)
+        << e.what();
   }
 }
 

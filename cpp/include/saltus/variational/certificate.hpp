@@ -1,0 +1,61 @@
+// Is the outcome of several contacts at one instant unique? What their angles tell (theory, section
+// 6).
+//
+// In the kinetic metric contacts are mirrors that meet at the wedge angles theta_ij,
+//
+//   cos theta_ij = -G_ij / sqrt(G_ii G_jj),   G = N M^-1 N^T
+//
+// Two contacts: unique for all v if and only if theta = pi/m; else at most ceil(pi/theta) impulses.
+// Many: if every theta_ij = pi/m_ij and the diagram of the m_ij > 2 is one of a finite reflection
+// group, every order leads to the same v+ by the same number of impulses, at most as many as the
+// group has mirrors. J. Humphreys, Reflection Groups and Coxeter Groups, sections 1.8, 2.4, 2.11.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "saltus/export.hpp"
+#include "saltus/spatial/spatial.hpp"
+
+namespace saltus {
+
+/// What can be said of all velocities v at once.
+enum class ImpactKind {
+  unique,           ///< v+ does not depend on the order of impulses
+  order_dependent,  ///< there are v for which it does: any single answer is a convention
+  jammed,           ///< no velocity opens all gaps at once: impulses need not end
+};
+
+struct ImpactCertificate {
+  ImpactKind kind;
+  /// If unique, the groups of contacts that feel each other, larger ones first: "A3 x A1^2", or
+  /// "plastic" where all e = 0; else empty.
+  std::string type;
+  std::optional<long> impulses;  ///< at most so many at one instant; none where no bound is known
+  MatX angles;                   ///< (m, m) [rad] theta_ij, pi on the diagonal
+  double interior;        ///< the largest d with N w >= d sqrt(diag G), |w|_M = 1; 0: there is none
+  std::vector<int> same;  ///< (m) the first contact with this one's normal, mostly itself
+};
+
+struct CertificateOptions {
+  /// An angle is pi/m if m theta / pi is 1 to this. What an error of the angles may change v by.
+  double tolerance = 1e-9;
+};
+
+/// @param M (n, n) positive definite; @param N (m, n) rows phi_q
+/// @param restitution (m) e in [0, 1] of each contact. With e < 1 only contacts that do not feel
+///        each other have a unique outcome, with all e = 0 any.
+/// @throws ModelError as resolve_impact(); also on a tolerance that is not in (0, 1e-3].
+SALTUS_EXPORT ImpactCertificate classify_impact(const Eigen::Ref<const MatX>& M,
+                                                const Eigen::Ref<const MatX>& N,
+                                                const VecRef& restitution,
+                                                const CertificateOptions& options = {});
+
+/// The same e for all contacts.
+SALTUS_EXPORT ImpactCertificate classify_impact(const Eigen::Ref<const MatX>& M,
+                                                const Eigen::Ref<const MatX>& N,
+                                                double restitution = 1,
+                                                const CertificateOptions& options = {});
+
+}  // namespace saltus
