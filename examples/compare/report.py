@@ -28,16 +28,16 @@ def table(scene: Scene, results: Sequence[dict]) -> str:
     """Return a scene's table in Markdown, aligned so that it reads as plain text too."""
     measured = [(r["name"], r["scenes"][scene.name]) for r in results if scene.name in r["scenes"]]
     if scene.kind == "break":
-        head = ["engine", "mirror error", "energy error", "wall [s]"]
+        head = ["engine", "mirror error", "energy error", "CPU [s]"]
         rows = [
-            [name, power(m["mirror"]), power(m["energy"]), f"{m['wall']:.3f}"]
+            [name, power(m["mirror"]), power(m["energy"]), f"{m['cpu']:.3f}"]
             for name, m in measured
         ]
         return grid(head, rows)
-    head = ["engine", "velocities after the impact", "energy error", "wall [s]"]
+    head = ["engine", "velocities after the impact", "energy error", "CPU [s]"]
     exact: Row = ["exact", velocities(EXACT[scene.name]), "0", ""]
     rows = [
-        [name, velocities(m["exits"]), power(m["energy"]), f"{m['wall']:.3f}"]
+        [name, velocities(m["exits"]), power(m["energy"]), f"{m['cpu']:.3f}"]
         for name, m in measured
     ]
     if scene.kind == "cradle":

@@ -80,4 +80,4 @@ def _printed(self: Impact) -> str:
 
 
 # Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
-Impact.__str__ = _printed  # type: ignore[assignment, method-assign]
+Impact.__str__ = _printed  # type: ignore[method-assign]

@@ -25,12 +25,19 @@ if TYPE_CHECKING:
 Array = npt.NDArray[np.float64]
 
 WIDTH = 8.0  # [in] of a picture
+NARROWED = 0.62  # part of the width that names and sums leave
 ROW, ROWS = 0.34, 9.0  # [in] height of a row, and of all rows at the most
 LARGEST, SMALLEST = 20.0, 2.5  # [pt] diameters: of the strongest impulse, of any that is seen
 CROWDED = 8.0  # [pt] of the strongest impulse, however narrow rows and columns are
 MOST_LABELS = 45  # rows with a name each; of more rows some are named
 BLUE = "#0072b2"
-STYLE: dict[str, Any] = {"color": BLUE, "edgecolors": "white", "linewidths": 0.6}
+STYLE: dict[str, Any] = {
+    "color": BLUE,
+    "edgecolors": "white",
+    "linewidths": 0.6,
+    "zorder": 2,
+    "clip_on": False,
+}
 
 
 @dataclass(frozen=True)
@@ -98,13 +105,15 @@ def plot_impacts(
     marks = _sums(run)
     figure, axes, height = _rows(path, [run.pair_names[pair] for pair in marks.pairs])
     if len(marks.sums):
-        scale = Scale(_largest(height), float(marks.sums.max()))
+        busiest = np.bincount(marks.row).max()
+        column = NARROWED * WIDTH * 72 / busiest  # [pt] a mark, where they are spread evenly
+        scale = Scale(_largest(height, 1.5 * column), float(marks.sums.max()))
         starts = np.flatnonzero(np.diff(marks.impact, prepend=-1))
         ends = np.append(starts[1:], len(marks.sums)) - 1
         t = run.impacts["t"][marks.impact]
         ways = (t[starts], marks.row[starts], marks.row[ends])
         axes.vlines(*ways, color=BLUE, lw=0.7, alpha=0.45, zorder=1)
-        axes.scatter(t, marks.row, s=scale.diameters(marks.sums) ** 2, zorder=2, **STYLE)
+        axes.scatter(t, marks.row, s=scale.diameters(marks.sums) ** 2, **STYLE)
         _legend(axes, scale)
     axes.set_xlim(run.t[0], max(run.t[-1], run.t[0] + 1e-9))
     axes.set_xlabel("time [s]", loc="left")
@@ -148,12 +157,12 @@ def plot_cascade(
     rows = np.array([row_of[pair] for pair in impact.pairs], dtype=int)
     figure, axes, height = _rows(path, names)
     order = np.arange(1, len(rows) + 1)
-    column = 0.62 * WIDTH * 72 / max(len(rows), 1)  # [pt] what names leave of the width
+    column = NARROWED * WIDTH * 72 / max(len(rows), 1)  # [pt]
     if len(rows):
         scale = Scale(_largest(height, column), float(impact.lambdas.max()))
         diameters = scale.diameters(impact.lambdas)
         axes.plot(order, rows, color="0.75", lw=0.8, zorder=1)
-        axes.scatter(order, rows, s=diameters**2, zorder=2, **STYLE)
+        axes.scatter(order, rows, s=diameters**2, **STYLE)
         if column >= 11:
             _number(axes, rows, diameters)
         if len(names) <= MOST_LABELS:
