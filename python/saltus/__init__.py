@@ -79,6 +79,7 @@ from saltus._core import (
 from saltus.batch import simulate_batch
 from saltus.batch_trajectory import BatchTrajectory
 from saltus.files import load
+from saltus.impacts import impact_table
 from saltus.paths import cmake_dir, urdf_dir
 from saltus.rollout import simulate
 from saltus.trajectory import Trajectory
@@ -141,6 +142,7 @@ __all__ = [
     "gap_table",
     "has_gap",
     "impact_outcomes",
+    "impact_table",
     "load",
     "load_urdf",
     "nodal_energy",

@@ -114,6 +114,11 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
     add("--no-collisions", action="store_true", help="bodies pass through each other")
     add("--out", metavar="FILE.h5", help="write the trajectory to this HDF5 file")
     add("--plot", metavar="FILE.png", help="write a picture; its ending says in which format")
+    add(
+        "--plot-impacts",
+        metavar="FILE.png",
+        help="write a picture of the impacts: which pairs, when, how strong, in which order",
+    )
     add("--all-impacts", action="store_true", help="print every impact and every impulse")
     _add_loading(parser)
     parser.set_defaults(command=commands.simulate)

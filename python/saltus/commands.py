@@ -10,6 +10,7 @@ from pathlib import Path
 
 import saltus
 from saltus import files, plots
+from saltus.impacts import count_line
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
@@ -35,11 +36,12 @@ def cmake_dir(_: argparse.Namespace) -> int:
 
 def simulate(chosen: argparse.Namespace) -> int:
     """Run a model, print its impacts and energy error, write what is asked for."""
-    for path in (chosen.out, chosen.plot):
+    for path in (chosen.out, chosen.plot, chosen.plot_impacts):
         if path is not None:  # before a long run, not after it
             files.check_folder(path)
-    if chosen.plot:
-        plots.new_figure(chosen.plot, (1, 1))  # says at once, not after the run, what is missing
+    for path in (chosen.plot, chosen.plot_impacts):
+        if path is not None:
+            plots.new_figure(path, (1, 1))  # says at once, not after the run, what is missing
     model = _load(chosen)
     run = saltus.simulate(
         model,
@@ -60,6 +62,9 @@ def simulate(chosen: argparse.Namespace) -> int:
     if chosen.plot:
         plots.plot(run, chosen.plot)
         print(f"picture: {chosen.plot}")
+    if chosen.plot_impacts:
+        run.plot_impacts(chosen.plot_impacts)
+        print(f"picture of impacts: {chosen.plot_impacts}")
     return 0 if run.complete else INTERRUPTED
 
 
@@ -116,10 +121,10 @@ def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:
         if len(impact.pairs) > most:
             impulses.append(f"... {len(impact.pairs) - most} more")
         print(f"{impact.t:10.6f}  {', '.join(impulses)}")
+        if impact.contacts > 1:
+            print(f"{'':10}    {count_line(impact)}")
     if shown < len(run.impacts):
-        print(
-            f"            ... {len(run.impacts) - shown} more impacts (--all-impacts prints them)"
-        )
+        print(f"{'':10}  ... {len(run.impacts) - shown} more impacts (--all-impacts prints them)")
 
 
 def _print_solvers(model: saltus.Model) -> None:

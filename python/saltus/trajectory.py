@@ -171,7 +171,7 @@ class Trajectory:
         return State(float(self.t[row]), self.q[row], self.p[row])
 
     def impact(self, index: int) -> Impact:
-        """Return one impact with its pairs by name."""
+        """Return one impact with its pairs by name; printed, it is a table of its cascade."""
         row = self.impacts[index]
         own = self.impulses[row["first"] : row["first"] + row["count"]]
         return Impact(
@@ -231,3 +231,23 @@ class Trajectory:
         from saltus import plots
 
         return plots.plot(self, path, **options)
+
+    def plot_impacts(
+        self, path: str | os.PathLike[str] | None = None, *, index: int | None = None
+    ) -> Figure:
+        """Draw which pairs took impulses when, or one impact as a cascade.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            Where the picture is written; its ending says in which format.
+        index : int, optional
+            The impact to draw as a cascade; else all of them over time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from saltus import plots_impacts
+
+        return plots_impacts.plot_impacts(self, path, index=index)

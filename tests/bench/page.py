@@ -46,7 +46,7 @@ made of an arc before it and one after it.
 {impacts}
 
 The same cradle of three for a minute, beside an engine whose contacts are springs. An exact cradle
-has an energy error of 0, and its middle ball rests.
+has an energy error of 0, and its middle ball rests. [More engines](compare.md) have a page.
 
 {emblem}
 

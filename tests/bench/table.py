@@ -179,10 +179,10 @@ def batch(result: dict) -> str:
 
 def emblem(runs: list[dict]) -> str:
     """Return the touching cradle of three, engine by engine."""
-    head = ["cradle of 3", "simulated s", "wall s / s", "CPU s / s"]
+    head = ["cradle of 3", "simulated s", "CPU s / s"]
     head += ["energy error", "largest angle of the middle ball"]
     lines = []
     for run in runs:
-        cells = (run["duration"], run["wall"], run["cpu"], run["energy_error"], run["resting_ball"])
+        cells = (run["duration"], run["cpu"], run["energy_error"], run["resting_ball"])
         lines.append([run["engine"], *map(number, cells)])
     return grid(head, lines)

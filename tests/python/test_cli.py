@@ -51,6 +51,22 @@ def test_long_tables_are_cut_and_can_be_had():
     assert "more impacts" not in everything
 
 
+def test_impacts_on_several_contacts_are_summed_up_and_drawn(tmp_path):
+    picture = tmp_path / "impacts.png"
+    done = run_cli(
+        "simulate", CRADLE, "--set", "swing_0=0.3", "--duration", "2", "--plot-impacts", picture
+    )
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    sums = [line for line in lines if line.strip() == "2 impulses on 2 contacts"]
+    assert len(sums) == 2
+    assert lines[2] == sums[0]  # below its impact
+    assert lines[-1] == f"picture of impacts: {picture}"
+    assert picture.stat().st_size > 5_000
+    wall = saltus.urdf_dir() / "pendulum_and_wall.urdf"  # one contact: nothing to sum up
+    assert "contact" not in run_cli("simulate", wall, "--set", "swing=0.5").stdout
+
+
 def test_other_options_of_simulate(tmp_path):
     out, model = tmp_path / "run.h5", tmp_path / "chain.urdf"
     model.write_text(chain_on_a_body(3))
@@ -134,6 +150,8 @@ SIMULATE = ("simulate", CRADLE, "--duration", "1")
         ((*SIMULATE, "--out", "/nowhere/run.h5"), ["/nowhere/run.h5", "no folder"]),
         ((*SIMULATE, "--plot", "/nowhere/run.png"), ["/nowhere/run.png"]),
         ((*SIMULATE, "--plot", "run.nonsense"), ["run.nonsense"]),
+        ((*SIMULATE, "--plot-impacts", "/nowhere/run.png"), ["/nowhere/run.png"]),
+        ((*SIMULATE, "--plot-impacts", "run.nonsense"), ["run.nonsense"]),
         (("fly",), ["fly"]),
         ((), ["COMMAND"]),
     ],

@@ -19,6 +19,11 @@ PREDICTED = {
     ],
     "bouncing_ball": ["11 impacts, the last at 9.481996 s"],
     "box_on_edge": ["first impact at 0.319275 s, contacts 2: box[+"],
+    "compare_engines": [
+        "default law, step 10 ms",
+        "| 0.000, 0.000, 0.000, 1.000, 1.000",
+        "| -0.172, 0.828, 0.828",
+    ],
     "cradle_counts": [
         "3 balls, 1 up: 1 left, 2 still, 2 impulses",
         "3 balls, 2 up: 2 left, 1 still, 2 impulses",
@@ -60,13 +65,14 @@ PREDICTED = {
     ],
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }
-WRITTEN = {"fig3": ["fig3.png"], "pairs": ["pairs.png"]}
+ARGUMENTS = {"compare_engines": ["--quick"]}
+WRITTEN = {"compare_engines": ["compare.png"], "fig3": ["fig3.png"], "pairs": ["pairs.png"]}
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example_prints_what_it_predicts(example, tmp_path):
     done = subprocess.run(
-        [sys.executable, example],
+        [sys.executable, example, *ARGUMENTS.get(example.stem, [])],
         capture_output=True,
         text=True,
         check=True,

@@ -1,0 +1,1 @@
+"""A module for each engine: NAME, VERSION, SETTING (in words) and `load(scene)`."""

@@ -1,0 +1,83 @@
+"""Impacts in words: a line that sums one up, and its cascade of impulses as a table."""
+
+from __future__ import annotations
+
+from saltus._core import Impact
+
+MOST_ROWS = 30  # of a table that print makes; a cradle of 1000 balls has 999 impulses at once
+
+
+def headline(impact: Impact) -> str:
+    """Return one line: when, how many impulses on how many contacts, under which law.
+
+    Parameters
+    ----------
+    impact : Impact
+
+    Returns
+    -------
+    str
+    """
+    law = f"{impact.law.name}{' as fallback' if impact.fallback else ''}"
+    return f"impact at t = {impact.t:.6f} s: {count_line(impact)}; {law}"
+
+
+def count_line(impact: Impact) -> str:
+    """Return how many impulses on how many contacts, and what is certain of the outcome.
+
+    Parameters
+    ----------
+    impact : Impact
+        Where it has an attribute `certificate` that says something, that comes last.
+
+    Returns
+    -------
+    str
+    """
+    counts = f"{_count(len(impact.pairs), 'impulse')} on {_count(impact.contacts, 'contact')}"
+    certificate = getattr(impact, "certificate", None)
+    return f"{counts}; {certificate}" if certificate else counts
+
+
+def impact_table(impact: Impact, *, most: int | None = None) -> str:
+    """Return the cascade of an impact as text: its impulses in order, one a line.
+
+    `print(run.impact(0))` prints this, the middle of a long cascade left out.
+
+    Parameters
+    ----------
+    impact : Impact
+    most : int, optional
+        Rows; of longer cascades the middle is left out. None: all of them.
+
+    Returns
+    -------
+    str
+    """
+    total = len(impact.pairs)
+    shown = total if most is None else min(most, total)
+    first = [*range(shown - shown // 2)]
+    last = [*range(total - shown // 2, total)]
+    cells = {i: (str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}") for i in (*first, *last)}
+    heads = ("#", "pair", "λ [N s]")
+    wide = [max(map(len, column)) for column in zip(heads, *cells.values(), strict=True)]
+
+    def line(number: str, pair: str, value: str) -> str:
+        return f"  {number:>{wide[0]}}  {pair:<{wide[1]}}  {value}"
+
+    lines = [headline(impact), line(*heads), *(line(*cells[i]) for i in first)]
+    if shown < total:
+        lines.append(f"  {'':>{wide[0]}}  ... {total - shown} more")
+    return "\n".join([*lines, *(line(*cells[i]) for i in last)])
+
+
+def _count(n: int, noun: str) -> str:
+    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
+
+
+def _printed(self: Impact) -> str:
+    return impact_table(self, most=MOST_ROWS)
+
+
+# Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
+Impact.__str__ = _printed  # type: ignore[method-assign]
