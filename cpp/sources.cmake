@@ -67,6 +67,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/certificate.cpp
+  cpp/src/variational/certify.cpp
   cpp/src/variational/closing_arc.cpp
   cpp/src/variational/contact_problem.cpp
   cpp/src/variational/contact_qp.cpp

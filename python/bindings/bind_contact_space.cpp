@@ -206,14 +206,6 @@ std::string count(std::size_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-std::string describe(const ImpactCertificate& c) {
-  const std::string kind = py::cast(c.kind).attr("name").cast<std::string>();
-  std::string text = "<ImpactCertificate: " + kind;
-  if (!c.type.empty()) text += ", " + c.type;
-  if (c.impulses) text += ", at most " + count(static_cast<std::size_t>(*c.impulses), "impulse");
-  return text + ">";
-}
-
 std::string describe(const ImpactOutcomes& o) {
   std::string text = "<ImpactOutcomes: " + count(o.outcomes.size(), "outcome");
   if (o.outcomes.size() > 1) {
@@ -238,7 +230,9 @@ void bind_certificate(py::module_& m) {
       .def_readonly("angles", &C::angles, "[rad] wedge angles, shape (m, m)")
       .def_readonly("interior", &C::interior, "how fast all gaps can open at once")
       .def_readonly("same", &C::same, "the first contact with each one's normal")
-      .def("__repr__", [](const C& c) { return describe(c); });
+      .def("__repr__",
+           [](const C& c) { return "<ImpactCertificate: " + saltus::describe(c) + ">"; })
+      .def("__str__", [](const C& c) { return saltus::describe(c); });
   const CertificateOptions o;
   m.def("classify_impact", &classify, classify_doc, py::arg("M"), py::arg("N"), py::kw_only(),
         py::arg("restitution") = 1.0, py::arg("tolerance") = o.tolerance);

@@ -88,6 +88,7 @@ void bind_trajectory(py::module_& m) {
                              "structured array: t, first, count, contacts, law, fallback")
       .def_property_readonly("impulses", &rows<&T::impulses>, "structured array: pair, lambda")
       .def_property_readonly("settlings", &rows<&T::settlings>, "structured array: t, pair")
+      .def_readonly("certificates", &T::certificates, "a text an impact, none unless asked for")
       .def_readonly("iterations", &T::iterations)
       .def_readonly("residual", &T::residual)
       .def_readonly("complete", &T::complete)

@@ -24,6 +24,9 @@ law : ImpactLaw
     The law that was used.
 fallback : bool
     Another law was asked for and nodal_energy used, an impulse being too weak for it.
+certificate : str
+    Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
+    (`certify`), and of a single contact.
 )";
 
 constexpr auto report_doc = R"(What happened in a step.
@@ -56,7 +59,7 @@ h : float
     [s] step.
 law : ImpactLaw or callable
     As in `StepOptions`.
-collisions, order, max_iterations, max_impacts, max_impulses, rest, simultaneous
+collisions, order, certify, max_iterations, max_impacts, max_impulses, rest, simultaneous
     As in `StepOptions`.
 
 Raises
@@ -122,10 +125,12 @@ struct NamedImpact {
   int contacts;
   ImpactLaw law;
   bool fallback;
+  std::string certificate;
 };
 
 NamedImpact with_names(const Model& model, const StepReport& report, const Impact& impact) {
-  NamedImpact out{impact.t, {}, VecX(impact.count), impact.contacts, impact.law, impact.fallback};
+  NamedImpact out{impact.t,        {}, VecX(impact.count), impact.contacts, impact.law,
+                  impact.fallback, ""};
   for (int i = 0; i < impact.count; ++i) {
     const Impulse& impulse = report.impulses[impact.first + i];
     out.pairs.push_back(model.pair_name(impulse.pair));
@@ -162,6 +167,9 @@ struct SharedStepper {
     for (const Impact& impact : r.impacts) {
       out.impacts.push_back(with_names(stepper.model(), r, impact));
     }
+    for (std::size_t i = 0; i < r.certificates.size(); ++i) {
+      out.impacts[i].certificate = r.certificates[i];
+    }
     for (const Settling& each : r.settlings) {
       out.settlings.emplace_back(each.t, stepper.model().pair_name(each.pair));
     }
@@ -173,17 +181,18 @@ void bind_impact(py::module_& m) {
   using I = NamedImpact;
   py::class_<I>(m, "Impact", impact_doc)
       .def(py::init([](double t, std::vector<std::string> pairs, const VecX& lambdas, int contacts,
-                       ImpactLaw law, bool fallback) {
-             return I{t, std::move(pairs), lambdas, contacts, law, fallback};
+                       ImpactLaw law, bool fallback, const std::string& certificate) {
+             return I{t, std::move(pairs), lambdas, contacts, law, fallback, certificate};
            }),
            py::arg("t"), py::arg("pairs"), py::arg("lambdas"), py::kw_only(), py::arg("contacts"),
-           py::arg("law"), py::arg("fallback"))
+           py::arg("law"), py::arg("fallback"), py::arg("certificate") = "")
       .def_readonly("t", &I::t)
       .def_readonly("pairs", &I::pairs)
       .def_readonly("lambdas", &I::lambdas)
       .def_readonly("contacts", &I::contacts)
       .def_readonly("law", &I::law)
       .def_readonly("fallback", &I::fallback)
+      .def_readonly("certificate", &I::certificate)
       .def("__repr__", [](const I& self) {
         return "Impact(t=" + py::repr(py::float_(self.t)).cast<std::string>() +
                ", pairs=" + py::repr(py::cast(self.pairs)).cast<std::string>() +
@@ -226,19 +235,21 @@ void bind_stepper(py::module_& m) {
   const StepOptions o;
   py::class_<S>(m, "Stepper", stepper_doc)
       .def(py::init([](const Unchecked<Model>& model, double h, const LawChoice& law,
-                       bool collisions, const Unchecked<ImpactOrder>& order, int max_iterations,
-                       int max_impacts, int max_impulses, double rest, double simultaneous) {
+                       bool collisions, const Unchecked<ImpactOrder>& order, bool certify,
+                       int max_iterations, int max_impacts, int max_impulses, double rest,
+                       double simultaneous) {
              return std::make_unique<S>(
-                 to_model(model), make_step_options(h, law, collisions, order, max_iterations,
-                                                    max_impacts, max_impulses, rest, simultaneous));
+                 to_model(model),
+                 make_step_options(h, law, collisions, order, certify, max_iterations, max_impacts,
+                                   max_impulses, rest, simultaneous));
            }),
            py::arg("model"), py::arg("h") = o.h,
            py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"), py::kw_only(),
            py::arg("collisions") = o.collisions,
            py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
-           py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
-           py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
-           py::arg("simultaneous") = o.simultaneous)
+           py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
+           py::arg("max_impacts") = o.max_impacts, py::arg("max_impulses") = o.max_impulses,
+           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)
       .def("advance", &S::advance, advance_doc, py::arg("state"))
       .def_property_readonly("report", &S::report, "StepReport of the step before.")
       .def_property_readonly("model", [](const S& s) { return s.stepper.model(); })

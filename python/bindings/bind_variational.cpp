@@ -37,6 +37,8 @@ collisions : bool
     False: bodies pass through each other.
 order : ImpactOrder
     Which of several approaching contacts is next.
+certify : bool
+    Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
 max_iterations : int
     Newton iterations an arc; 2 to 4 are usual.
 max_impacts : int
@@ -114,12 +116,13 @@ void bind_step_options(py::module_& m) {
            py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"),
            py::arg("collisions") = o.collisions, py::kw_only(),
            py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
-           py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
-           py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
-           py::arg("simultaneous") = o.simultaneous)
+           py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
+           py::arg("max_impacts") = o.max_impacts, py::arg("max_impulses") = o.max_impulses,
+           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)
       .def_readonly("h", &O::h, "[s]")
       .def_readonly("law", &O::law, "`ImpactLaw.custom` for a function")
       .def_readonly("order", &O::order)
+      .def_readonly("certify", &O::certify)
       .def_readonly("collisions", &O::collisions)
       .def_readonly("max_iterations", &O::max_iterations)
       .def_readonly("max_impacts", &O::max_impacts)

@@ -77,7 +77,7 @@ Enum to_enum(const Unchecked<Enum>& x, const char* what) {
 
 /// The options of a step, as both StepOptions and Stepper take them.
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
-                              const Unchecked<ImpactOrder>& order, int max_iterations,
+                              const Unchecked<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_impulses, double rest, double simultaneous);
 
 /// How links and shapes are named.

@@ -43,13 +43,14 @@ void set_law(const LawChoice& law, StepOptions& options) {
 }
 
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
-                              const Unchecked<ImpactOrder>& order, int max_iterations,
+                              const Unchecked<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_impulses, double rest, double simultaneous) {
   StepOptions options;
   options.h = h;
   set_law(law, options);
   options.collisions = collisions;
   options.order = to_enum(order, "order");
+  options.certify = certify;
   options.max_iterations = max_iterations;
   options.max_impacts = max_impacts;
   options.max_impulses = max_impulses;

@@ -51,6 +51,7 @@ def simulate(chosen: argparse.Namespace) -> int:
         h=chosen.h,
         law=saltus.ImpactLaw[chosen.law],
         order=saltus.ImpactOrder[chosen.order],
+        certify=True,
         collisions=not chosen.no_collisions,
         record_every=chosen.record_every,
     )

@@ -109,6 +109,7 @@ def _write(run: Trajectory, file: h5py.File) -> None:
         file.attrs[name] = getattr(run.options, name)
     file.attrs["law"] = ImpactLaw(run.options.law).name
     file.attrs["order"] = run.options.order.name
+    file.attrs["certify"] = run.options.certify
     for name in NUMBERS:
         file.attrs[name] = getattr(run, name)
     for name in ARRAYS:
@@ -119,7 +120,7 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
     file["impacts"] = run.impacts.astype(np.dtype(fields))
-    for name in ("coordinate_names", "pair_names"):
+    for name in ("coordinate_names", "pair_names", "certificates"):
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
     options = None if run.model is None else _urdf_options(run.model)
     if run.model is None or options is None:
@@ -149,6 +150,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
+    certificates = tuple(file["certificates"].asstr()[()]) if "certificates" in file else ()
     options = {name: file.attrs[name].item() for name in OPTIONS}
     coordinates = tuple(file["coordinate_names"].asstr()[()])
     pairs = tuple(file["pair_names"].asstr()[()])
@@ -169,6 +171,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
         options=_step_options(file, options),
         coordinate_names=coordinates,
         pair_names=pairs,
+        certificates=certificates,
         **arrays,
         **numbers,
     )
@@ -178,7 +181,8 @@ def _step_options(file: h5py.File, numbers: dict[str, Any]) -> StepOptions:
     law = ImpactLaw[file.attrs["law"]]
     order = ImpactOrder[file.attrs.get("order", "fastest")]
     chosen = _lost_law if law is ImpactLaw.custom else law
-    return StepOptions(law=chosen, order=order, **numbers)
+    certify = bool(file.attrs.get("certify", False))
+    return StepOptions(law=chosen, order=order, certify=certify, **numbers)
 
 
 def _lost_law(_: ImpactProblem) -> np.typing.NDArray[np.float64]:

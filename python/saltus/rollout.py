@@ -37,6 +37,7 @@ class StepBounds(TypedDict, total=False):
     """The order, bounds and tolerances of `StepOptions`, as keywords."""
 
     order: ImpactOrder
+    certify: bool
     max_iterations: int
     max_impacts: int
     max_impulses: int
@@ -84,7 +85,7 @@ def simulate(
         None: a progress bar on a terminal when the run takes longer than 2 s; True, False: always,
         never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `order`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
+        `order`, `certify`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
         `StepOptions`.
 
     Returns

@@ -67,6 +67,8 @@ class Trajectory:
         Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s].
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
+    certificates : tuple of str
+        Of each impact whether its outcome is unique; empty unless `certify` asked for it.
     iterations : int
         Newton iterations in all.
     residual : float
@@ -92,6 +94,7 @@ class Trajectory:
     impacts: npt.NDArray[np.void]
     impulses: npt.NDArray[np.void]
     settlings: npt.NDArray[np.void]
+    certificates: tuple[str, ...]
     iterations: int
     residual: float
     complete: bool
@@ -120,6 +123,7 @@ class Trajectory:
             impacts=impacts,
             impulses=impulses,
             settlings=settlings,
+            certificates=tuple(core.certificates),
             **{name: getattr(core, name) for name in (*names, *numbers)},
         )
 
@@ -181,6 +185,7 @@ class Trajectory:
             contacts=int(row["contacts"]),
             law=ImpactLaw(int(row["law"])),
             fallback=bool(row["fallback"]),
+            certificate=self.certificates[index] if self.certificates else "",
         )
 
     def require_model(self) -> Model:

@@ -58,6 +58,8 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
   outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
   outcome.settlings.insert(outcome.settlings.end(), report.settlings.begin(),
                            report.settlings.end());
+  outcome.certificates.insert(outcome.certificates.end(), report.certificates.begin(),
+                              report.certificates.end());
   outcome.iterations += report.iterations;
   outcome.residual = std::max(outcome.residual, report.residual);
 }

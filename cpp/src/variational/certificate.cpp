@@ -135,7 +135,27 @@ void certify(const VecRef& e, double tolerance, ImpactCertificate& out) {
   if (unique) out.type = product_name(factors);
 }
 
+std::string name_of(ImpactKind kind) {
+  switch (kind) {
+    case ImpactKind::unique:
+      return "unique";
+    case ImpactKind::order_dependent:
+      return "order_dependent";
+    case ImpactKind::jammed:
+      return "jammed";
+  }
+  return "unknown";
+}
+
 }  // namespace
+
+std::string describe(const ImpactCertificate& certificate) {
+  std::string text = name_of(certificate.kind);
+  if (!certificate.type.empty()) text += ", " + certificate.type;
+  if (!certificate.impulses) return text;
+  const long most = *certificate.impulses;
+  return text + ", at most " + std::to_string(most) + (most == 1 ? " impulse" : " impulses");
+}
 
 ImpactCertificate classify_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
                                   const VecRef& restitution, const CertificateOptions& options) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/certify.hpp"
 #include "variational/contact_qp.hpp"
 #include "variational/custom_law.hpp"
 #include "variational/node.hpp"
@@ -104,6 +105,7 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
     if (options.law != ImpactLaw::nodal_energy) prepare_launch(energy, node);
   }
   tell(node, options.law, report);
+  if (options.certify) report.certificates.push_back(certify(node));
   settle_velocities(model, options, node);
   return true;
 }

@@ -73,6 +73,7 @@ void Stepper::Impl::step(State& state) {
   report.impacts.clear();
   report.impulses.clear();
   report.settlings.clear();
+  report.certificates.clear();
   flight.settlings.clear();
   if (!last_is_valid || !(state == last) || node.pool.is_full()) start(state);
   last_is_valid = false;  // until this step is done

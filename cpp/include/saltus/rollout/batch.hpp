@@ -28,9 +28,10 @@ struct RunOutcome {
   std::vector<Impact> impacts;    ///< in order of time; `first` counts into `impulses`
   std::vector<Impulse> impulses;  ///< of all its impacts
   std::vector<Settling> settlings;
-  long iterations = 0;    ///< Newton iterations in all
-  double residual = 0;    ///< [largest momentum] the worst of any step
-  Eigen::Index rows = 1;  ///< that were reached; the others are NaN
+  std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
+  long iterations = 0;                    ///< Newton iterations in all
+  double residual = 0;                    ///< [largest momentum] the worst of any step
+  Eigen::Index rows = 1;                  ///< that were reached; the others are NaN
   bool complete = false;  ///< false: failed, or stopped on request before `duration`
   std::string failure;    ///< what its error says, "" if there was none
 };

@@ -38,6 +38,9 @@ struct ImpactCertificate {
   std::vector<int> same;  ///< (m) the first contact with this one's normal, mostly itself
 };
 
+/// "unique, A2, at most 3 impulses"
+SALTUS_EXPORT std::string describe(const ImpactCertificate& certificate);
+
 struct CertificateOptions {
   /// An angle is pi/m if m theta / pi is 1 to this. What an error of the angles may change v by.
   double tolerance = 1e-9;

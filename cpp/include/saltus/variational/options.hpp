@@ -35,6 +35,7 @@ struct StepOptions {
   double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
   ImpactOrder order = ImpactOrder::fastest;
+  bool certify = false;  ///< says of impacts on several contacts whether their outcome is unique
   ImpactFunction custom = {};  ///< what law = custom calls
   bool collisions = true;      ///< false: bodies pass through each other
 

@@ -1,6 +1,7 @@
 // What happened in a step.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "saltus/variational/options.hpp"
@@ -38,6 +39,7 @@ struct StepReport {
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
   std::vector<Settling> settlings;
+  std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
 };
 
 }  // namespace saltus
