@@ -243,13 +243,12 @@ void bind_stepper(py::module_& m) {
                  make_step_options(h, law, collisions, order, certify, max_iterations, max_impacts,
                                    max_impulses, rest, simultaneous));
            }),
-           py::arg("model"), py::arg("h") = o.h,
-           py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"), py::kw_only(),
-           py::arg("collisions") = o.collisions,
-           py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
-           py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
-           py::arg("max_impacts") = o.max_impacts, py::arg("max_impulses") = o.max_impulses,
-           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)
+           py::arg("model"), py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
+           py::kw_only(), py::arg("collisions") = o.collisions,
+           py::arg_v("order", o.order, "ImpactOrder.fastest"), py::arg("certify") = o.certify,
+           py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
+           py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
+           py::arg("simultaneous") = o.simultaneous)
       .def("advance", &S::advance, advance_doc, py::arg("state"))
       .def_property_readonly("report", &S::report, "StepReport of the step before.")
       .def_property_readonly("model", [](const S& s) { return s.stepper.model(); })

@@ -113,9 +113,8 @@ void bind_step_options(py::module_& m) {
   const O o;
   py::class_<O>(m, "StepOptions", step_options_doc)
       .def(py::init(&make_step_options), py::arg("h") = o.h,
-           py::arg_v("law", LawChoice{py::cast(o.law)}, "ImpactLaw.nodal_energy"),
-           py::arg("collisions") = o.collisions, py::kw_only(),
-           py::arg_v("order", Unchecked<ImpactOrder>{py::cast(o.order)}, "ImpactOrder.fastest"),
+           py::arg_v("law", o.law, "ImpactLaw.nodal_energy"), py::arg("collisions") = o.collisions,
+           py::kw_only(), py::arg_v("order", o.order, "ImpactOrder.fastest"),
            py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
            py::arg("max_impacts") = o.max_impacts, py::arg("max_impulses") = o.max_impulses,
            py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)

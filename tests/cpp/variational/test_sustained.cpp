@@ -39,6 +39,37 @@ TEST(Sustained, AStackOfTenBallsRestsForAMinute) {
   EXPECT_EQ(run.energy_error(), 0);
 }
 
+// Ten balls zigzag between two walls 3 r apart: each leans on one wall and on its neighbours, 20
+// contacts for 20 coordinates.
+TEST(Sustained, TenBallsInATroughRestForAMinute) {
+  const double r = 0.1;
+  ModelBuilder b;
+  std::map<std::string, double> q;
+  for (int i = 0; i < 10; ++i) {
+    const std::string k = std::to_string(i);
+    b.add_link({"slide_" + k, {}}).add_link({"ball_" + k, solid_sphere(1, r)});
+    b.add_joint(
+        {.name = "x_" + k, .type = JointType::prismatic, .parent = "world", .child = "slide_" + k});
+    b.add_joint({.name = "z_" + k,
+                 .type = JointType::prismatic,
+                 .parent = "slide_" + k,
+                 .child = "ball_" + k,
+                 .axis = Vec3::UnitZ()});
+    b.add_shape("ball_" + k, Sphere{r});
+    q["x_" + k] = (i % 2 == 0 ? -1 : 1) * r / 2;
+    q["z_" + k] = r + i * std::sqrt(3.) * r;
+  }
+  b.add_half_space("floor", Vec3::UnitZ()).add_half_space("left", Vec3::UnitX(), -1.5 * r);
+  b.add_half_space("right", -Vec3::UnitX(), -1.5 * r);
+  const Model model = b.build();
+  const Trajectory run = simulate(model, model.state(q), 60, {.h = 0.01});
+  EXPECT_TRUE(run.impacts.empty());
+  EXPECT_LT((run.q.rowwise() - run.q.row(0)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(run.kinetic.maxCoeff(), 1e-12);
+  const VecX phi = model.gaps(run.q.row(run.q.rows() - 1).transpose()).phi;
+  EXPECT_EQ((phi.array().abs() < 1e-9).count(), 20);
+}
+
 TEST(Sustained, ABallSlidesDownASlopeAsTheClosedFormSays) {
   ModelBuilder b = ball_in_the_plane();
   b.add_half_space("slope", Vec3(0.6, 0, 0.8));
