@@ -1,5 +1,6 @@
 #include "saltus/variational/cascade.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -52,6 +53,24 @@ ContactMatrix without_zeros(const Eigen::Ref<const MatX>& G) {
   return out;
 }
 
+/// After so many impulses u is computed anew from v. Its updates round, so that the energy is off
+/// by the square of their number: 2e-8 after 31415 impulses, and 2e-11 this way.
+constexpr int impulses_a_go = 16;
+
+[[noreturn]] void refuse_endless(const ContactProblem& problem, int max_impulses) {
+  const auto m = problem.u.size();
+  std::ostringstream text;
+  text << "the impact does not end within " << max_impulses << " impulses: ";
+  const double interior = cone_interior(problem.G);
+  if (interior == 0) {
+    text << "bodies jammed between others, no velocity opens all " << m << " gaps";
+  } else {
+    text << "the " << m << " gaps can open, but at no more than " << interior
+         << " of |v| at once, because masses or normals are so unlike; raise max_impulses";
+  }
+  throw JammedError(text.str(), 0, problem.u.minCoeff(), max_impulses);
+}
+
 }  // namespace
 
 bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
@@ -101,22 +120,20 @@ ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref<c
     throw ModelError("max_impulses " + std::to_string(options.max_impulses) + " is less than 1");
   }
   ContactProblem problem = contact_problem(M, N, v, restitution);
+  const ContactMatrix G = without_zeros(problem.G);
+  CascadeScratch scratch;
   ImpactOutcome out{v, {}};
-  VecX& u = problem.u;
-  if (!cascade(problem.G, u, problem.rest, restitution, options, out.impulses)) {
-    std::ostringstream text;
-    text << "the impact does not end within " << options.max_impulses << " impulses: ";
-    const double interior = cone_interior(problem.G);
-    if (interior == 0) {
-      text << "bodies jammed between others, no velocity opens all " << N.rows() << " gaps";
-    } else {
-      text << "the " << N.rows() << " gaps can open, but at no more than " << interior
-           << " of |v| at once, because masses or normals are so unlike; raise max_impulses";
+  for (bool ended = G.size() == 0; !ended;) {
+    const std::size_t first = out.impulses.size();
+    CascadeOptions some = options;
+    some.max_impulses =
+        std::clamp(options.max_impulses - static_cast<int>(first), 0, impulses_a_go);
+    ended = cascade(G, problem.u, problem.rest, restitution, some, scratch, out.impulses);
+    if (!ended && out.impulses.size() == first) refuse_endless(problem, options.max_impulses);
+    for (std::size_t k = first; k < out.impulses.size(); ++k) {
+      out.v += problem.columns.col(out.impulses[k].pair) * out.impulses[k].lambda;
     }
-    throw JammedError(text.str(), 0, u.minCoeff(), options.max_impulses);
-  }
-  for (const Impulse& impulse : out.impulses) {
-    out.v += problem.columns.col(impulse.pair) * impulse.lambda;
+    problem.u = N * out.v;
   }
   return out;
 }
