@@ -30,6 +30,28 @@ void bind_add_joint(py::class_<ModelBuilder>& c) {
         py::arg("damping") = 0.0, py::arg("friction") = 0.0);
 }
 
+void bind_materials(py::class_<ModelBuilder>& c) {
+  c.def("set_material", &ModelBuilder::set_material, self, docs::set_material, py::arg("link"),
+        py::arg("material"))
+      .def(
+          "set_contact",
+          [](ModelBuilder& builder, const std::string& a, const std::string& b, double restitution,
+             double friction) -> ModelBuilder& {
+            return builder.set_contact(a, b, {restitution, friction});
+          },
+          self, docs::set_contact, py::arg("material_a"), py::arg("material_b"), py::kw_only(),
+          py::arg("restitution") = ContactProperties{}.restitution,
+          py::arg("friction") = ContactProperties{}.friction)
+      .def(
+          "set_default_contact",
+          [](ModelBuilder& builder, double restitution, double friction) -> ModelBuilder& {
+            return builder.set_default_contact({restitution, friction});
+          },
+          self, docs::set_default_contact, py::kw_only(),
+          py::arg("restitution") = ContactProperties{}.restitution,
+          py::arg("friction") = ContactProperties{}.friction);
+}
+
 }  // namespace
 
 void bind_model_builder(py::module_& m) {
@@ -51,6 +73,7 @@ void bind_model_builder(py::module_& m) {
   py::class_<ModelBuilder> c(m, "ModelBuilder", docs::model_builder);
   c.def(py::init<std::string, std::string>(), py::arg("name") = "model", py::arg("root") = "world");
   bind_add_joint(c);
+  bind_materials(c);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",
@@ -82,25 +105,6 @@ void bind_model_builder(py::module_& m) {
             return builder.set_adjacent_links(to_enum(adjacent, "adjacent"));
           },
           self, docs::set_adjacent_links, py::arg("adjacent"))
-      .def("set_material", &ModelBuilder::set_material, self, docs::set_material, py::arg("link"),
-           py::arg("material"))
-      .def(
-          "set_contact",
-          [](ModelBuilder& builder, const std::string& a, const std::string& b, double restitution,
-             double friction) -> ModelBuilder& {
-            return builder.set_contact(a, b, {restitution, friction});
-          },
-          self, docs::set_contact, py::arg("material_a"), py::arg("material_b"), py::kw_only(),
-          py::arg("restitution") = ContactProperties{}.restitution,
-          py::arg("friction") = ContactProperties{}.friction)
-      .def(
-          "set_default_contact",
-          [](ModelBuilder& builder, double restitution, double friction) -> ModelBuilder& {
-            return builder.set_default_contact({restitution, friction});
-          },
-          self, docs::set_default_contact, py::kw_only(),
-          py::arg("restitution") = ContactProperties{}.restitution,
-          py::arg("friction") = ContactProperties{}.friction)
       .def("add_warning", &ModelBuilder::add_warning, self,
            "Adds to the model's `warnings`; returns the builder.", py::arg("text"))
       .def_property_readonly("warnings", &ModelBuilder::warnings)

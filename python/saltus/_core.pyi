@@ -16,6 +16,7 @@ __all__: list[str] = [
     "BodyInertia",
     "Box",
     "Capsule",
+    "ContactProperties",
     "Convex",
     "Coordinate",
     "Cylinder",
@@ -31,6 +32,7 @@ __all__: list[str] = [
     "ImpactOrder",
     "ImpactOutcome",
     "ImpactOutcomes",
+    "ImpactProblem",
     "JammedError",
     "JointInfo",
     "JointType",
@@ -55,6 +57,8 @@ __all__: list[str] = [
     "TreeSolution",
     "TreeSolver",
     "classify_impact",
+    "compensated",
+    "custom",
     "discrete_energy",
     "energies",
     "gap",
@@ -64,7 +68,9 @@ __all__: list[str] = [
     "nodal_energy",
     "read_urdf",
     "resolve_impact",
+    "resolve_overlap",
     "rotation_from_rpy",
+    "shadow_energy",
     "shape_name",
     "simulate",
     "simulate_batch",
@@ -468,6 +474,23 @@ class Pair:
         [m] below this |phi| the shapes touch
         """
 
+class ContactProperties:
+    """
+    What happens where two materials meet.
+
+    Attributes
+    ----------
+    restitution : float
+        e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
+    friction : float
+        Coulomb's mu >= 0.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def friction(self) -> float: ...
+    @property
+    def restitution(self) -> float: ...
+
 class State:
     """
     The state of a model: a value. Keep it, compare it, go back to it.
@@ -702,6 +725,12 @@ class Model:
     it takes an array of shape (n,) or a mapping from names to values, whose other values are 0.
     """
     def __repr__(self) -> str: ...
+    def contact_properties(
+        self, pair: typing.SupportsInt | typing.SupportsIndex
+    ) -> ContactProperties:
+        """
+        ContactProperties of the materials that meet in the pair of this number.
+        """
     def coordinate(self, name: str) -> int:
         """
         Index of a coordinate; ModelError with the names there are.
@@ -1182,6 +1211,42 @@ class ModelBuilder:
         ----------
         adjacent : AdjacentLinks
         """
+    def set_contact(
+        self,
+        material_a: str,
+        material_b: str,
+        *,
+        restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Says what happens where two materials meet; the last word holds.
+
+        Parameters
+        ----------
+        material_a, material_b : str
+            In any order; they may be the same.
+        restitution : float
+            e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
+        friction : float
+            Coulomb's mu >= 0: the tangential force is at most mu times the normal one.
+
+        Raises
+        ------
+        ModelError
+            On values out of their range; `build` raises it on materials that no link has.
+        """
+    def set_default_contact(
+        self,
+        *,
+        restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Says what happens between all shapes that no `set_contact` is said of.
+
+        Elastic and without friction otherwise. Parameters as in `set_contact`.
+        """
     def set_gravity(
         self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> ModelBuilder:
@@ -1202,6 +1267,17 @@ class ModelBuilder:
         link : str
         group : str
             Any name; `add_group_exclusion` says what it is good for.
+        """
+    def set_material(self, link: str, material: str) -> ModelBuilder:
+        """
+        Says what all shapes of a link are made of; it says nothing by itself.
+
+        Parameters
+        ----------
+        link : str
+            The root link's material is that of its half-spaces too.
+        material : str
+            Any name; `set_contact` says what happens between two.
         """
     def set_solver(self, solver: TreeSolver) -> ModelBuilder:
         """
@@ -1232,10 +1308,17 @@ class ImpactLaw(enum.IntEnum):
     nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
     discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
     Collisions in a Variational Framework", (11c); the step is exactly symplectic.
+    shadow_energy: H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
+    compensated: as discrete_energy, of arcs with L + (h^2 - tau^2) kappa / 24; the step is exactly
+    symplectic, and the energy of order h^4.
+    custom: a function that was given as the law.
     """
 
+    compensated = ...
+    custom = ...
     discrete_energy = ...
     nodal_energy = ...
+    shadow_energy = ...
 
 class ImpactOrder(enum.Enum):
     """
@@ -1250,6 +1333,49 @@ class ImpactOrder(enum.Enum):
     index = ...
     symmetric = ...
 
+class ImpactProblem:
+    """
+    The instant of an impact, as a custom law sees it: all pairs that touch.
+
+    Attributes
+    ----------
+    t : float
+        [s]
+    q, p, v : numpy.ndarray, shape (n,)
+        Before the impact; v = M^-1 p.
+    M : numpy.ndarray, shape (n, n)
+        Mass matrix at q.
+    N : numpy.ndarray, shape (m, n)
+        Rows are gradients of the gaps.
+    u : numpy.ndarray, shape (m,)
+        [m/s] gap rates N v, negative where a pair approaches.
+    restitution, friction : numpy.ndarray, shape (m,)
+        Of the materials that meet.
+    pairs : list of int
+        Numbers of the pairs, as in `Model.pair_name`.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def M(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def N(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def pairs(self) -> list[int]: ...
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def restitution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def t(self) -> float: ...
+    @property
+    def u(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+
 class StepOptions:
     """
     How to step.
@@ -1258,9 +1384,14 @@ class StepOptions:
     ----------
     h : float
         [s] step.
-    law : ImpactLaw
+    law : ImpactLaw or callable
+        A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
     collisions : bool
         False: bodies pass through each other.
+    order : ImpactOrder
+        Which of several approaching contacts is next.
+    certify : bool
+        Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
     max_iterations : int
         Newton iterations an arc; 2 to 4 are usual.
     max_impacts : int
@@ -1275,9 +1406,11 @@ class StepOptions:
     def __init__(
         self,
         h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
-        law: ImpactLaw = ...,
+        law: ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
         collisions: bool = True,
         *,
+        order: ImpactOrder = ...,
+        certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
@@ -1286,6 +1419,8 @@ class StepOptions:
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
+    def certify(self) -> bool: ...
+    @property
     def collisions(self) -> bool: ...
     @property
     def h(self) -> float:
@@ -1293,13 +1428,18 @@ class StepOptions:
         [s]
         """
     @property
-    def law(self) -> ImpactLaw: ...
+    def law(self) -> ImpactLaw:
+        """
+        `ImpactLaw.custom` for a function
+        """
     @property
     def max_impacts(self) -> int: ...
     @property
     def max_impulses(self) -> int: ...
     @property
     def max_iterations(self) -> int: ...
+    @property
+    def order(self) -> ImpactOrder: ...
     @property
     def rest(self) -> float: ...
     @property
@@ -1355,6 +1495,7 @@ class ImpactCertificate:
         The first contact with each one's normal, mostly the contact itself: equal normals count once.
     """
     def __repr__(self) -> str: ...
+    def __str__(self) -> str: ...
     @property
     def angles(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
@@ -1437,7 +1578,10 @@ class Impact:
     law : ImpactLaw
         The law that was used.
     fallback : bool
-        discrete_energy was asked for and nodal_energy used, an impulse being too weak for it.
+        Another law was asked for and nodal_energy used, an impulse being too weak for it.
+    certificate : str
+        Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
+        (`certify`), and of a single contact.
     """
     def __init__(
         self,
@@ -1448,9 +1592,12 @@ class Impact:
         contacts: typing.SupportsInt | typing.SupportsIndex,
         law: ImpactLaw,
         fallback: bool,
+        certificate: str = "",
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
+    @property
+    def certificate(self) -> str: ...
     @property
     def contacts(self) -> int: ...
     @property
@@ -1479,6 +1626,8 @@ class StepReport:
     residual : float
         [largest momentum] of the worst arc.
     impacts : list of Impact
+    settlings : list of (float, str)
+        Time [s] and name of each pair that bounced ever lower and has come to rest.
     """
     def __repr__(self) -> str: ...
     @property
@@ -1489,6 +1638,8 @@ class StepReport:
     def iterations(self) -> int: ...
     @property
     def residual(self) -> float: ...
+    @property
+    def settlings(self) -> list[tuple[float, str]]: ...
     @property
     def sustained(self) -> int: ...
 
@@ -1504,8 +1655,9 @@ class Stepper:
     model : Model
     h : float
         [s] step.
-    law : ImpactLaw
-    collisions, max_iterations, max_impacts, max_impulses, rest, simultaneous
+    law : ImpactLaw or callable
+        As in `StepOptions`.
+    collisions, order, certify, max_iterations, max_impacts, max_impulses, rest, simultaneous
         As in `StepOptions`.
 
     Raises
@@ -1517,9 +1669,11 @@ class Stepper:
         self,
         model: Model,
         h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
-        law: ImpactLaw = ...,
+        law: ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
         *,
         collisions: bool = True,
+        order: ImpactOrder = ...,
+        certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
@@ -1563,6 +1717,11 @@ class Trajectory:
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
     @property
+    def certificates(self) -> list[str]:
+        """
+        a text an impact, none unless asked for
+        """
+    @property
     def complete(self) -> bool: ...
     @property
     def energy_error(self) -> float: ...
@@ -1604,6 +1763,11 @@ class Trajectory:
         """
     @property
     def residual(self) -> float: ...
+    @property
+    def settlings(self) -> typing.Any:
+        """
+        structured array: t, pair
+        """
     @property
     def shadow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
@@ -1975,6 +2139,32 @@ def resolve_impact(
         When the impulses do not end.
     """
 
+def resolve_overlap(
+    model: Model, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    The nearest configuration without overlap.
+
+    Moves bodies out of each other as little as the kinetic metric allows, step by step: each
+    minimizes |dq|_M subject to phi + phi_q dq >= 0.
+
+    Parameters
+    ----------
+    model : Model
+    q : mapping of names to values, or array_like, shape (n,)
+        [rad | m] coordinates; those not named are 0.
+
+    Returns
+    -------
+    numpy.ndarray, shape (n,)
+
+    Raises
+    ------
+    ModelError
+        Where `q` does not fit the model; where pairs still overlap in the end: names them and their
+        depths.
+    """
+
 def rotation_from_rpy(
     roll: typing.SupportsFloat | typing.SupportsIndex,
     pitch: typing.SupportsFloat | typing.SupportsIndex,
@@ -2176,5 +2366,8 @@ def states(
     """
 
 __version__: str = "0.1.0"
+compensated: ImpactLaw
+custom: ImpactLaw
 discrete_energy: ImpactLaw
 nodal_energy: ImpactLaw
+shadow_energy: ImpactLaw

@@ -125,7 +125,10 @@ def test_what_cannot_be_run(options, message):
     ("options", "message"),
     [
         ({}, "duration"),
-        ({"duration": 1.0, "max_iteration": 1}, '"max_iteration"; bounds of a step are max_iter'),
+        (
+            {"duration": 1.0, "max_iteration": 1},
+            '"max_iteration"; bounds of a step are order, certify, max_iter',
+        ),
         (
             {"duration": 1.0, "law": "nodal_energy"},
             r"^law = 'nodal_energy' is no ImpactLaw; there are sal",

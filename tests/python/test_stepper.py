@@ -91,7 +91,7 @@ def test_options_out_of_range(options):
 
 
 def test_wrong_options_are_type_errors():
-    laws = "saltus.ImpactLaw.nodal_energy, saltus.ImpactLaw.discrete_energy"
+    laws = ", ".join(f"saltus.ImpactLaw.{law.name}" for law in saltus.ImpactLaw)
     for act in (
         lambda law: saltus.Stepper(cradle(), law=law),
         lambda law: saltus.StepOptions(law=law),
