@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from saltus import _core
 from saltus._core import ImpactLaw, Model, ModelError, OnFailure, State, StepOptions
 from saltus.batch_trajectory import BatchTrajectory
-from saltus.rollout import Progress, StepBounds, check_types, progress_bar
+from saltus.rollout import Law, Progress, StepBounds, check_types, progress_bar
 from saltus.trajectory import Array
 
 if TYPE_CHECKING:
@@ -75,8 +75,8 @@ def simulate_batch(
         None: a progress bar on a terminal when the batch takes longer than 2 s; True, False:
         always, never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `order`, `certify`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`, `simultaneous`: as in
-        `StepOptions`.
+        `order`, `certify`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`,
+        `simultaneous`: as in `StepOptions`.
 
     Returns
     -------

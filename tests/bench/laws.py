@@ -70,7 +70,7 @@ def long_run(model, state, law, h, impacts):
 
 
 def microseconds(model, start, law, h=0.01):
-    """What a step with an impact takes."""
+    """Return what a step with an impact takes."""
     stepper = saltus.Stepper(model, h, law)
     state = start
     while True:
