@@ -202,7 +202,10 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   const int most_turns = 10 + 4 * node.pool.size();
   for (int turn = 0; turn < most_turns; ++turn) {
     if (!solved && !solve_flight_arc(model, options, tau, node, f)) {
-      return FlightOutcome::not_converged;
+      if (!drop_launch(node, f)) return FlightOutcome::not_converged;
+      fallback = true;
+      tau = left;
+      continue;
     }
     solved = false;
     if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
@@ -237,7 +240,10 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         if (impact_pending(node)) return arrive_at_once(model, options, node, f);
         break;
       case ImpactTime::not_converged:
-        return FlightOutcome::not_converged;
+        if (!drop_launch(node, f)) return FlightOutcome::not_converged;
+        fallback = true;
+        tau = left;
+        break;
       case ImpactTime::not_located:
         return FlightOutcome::impact_not_located;
     }

@@ -80,6 +80,17 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, d
   return c;
 }
 
+bool drop_launch(const Node& node, Flight& f) {
+  for (int i = 0; i < f.active; ++i) {
+    if (f.constraints[i].kind != ArcConstraint::Kind::launch) continue;
+    std::swap(f.constraints[i], f.constraints[--f.active]);
+    for (int k = 0; k < f.active; ++k) f.constraints[k].lambda = 0;
+    f.arc.v = node.v;
+    return true;
+  }
+  return false;
+}
+
 bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
             Flight& f) {
   node.launch.pending = false;

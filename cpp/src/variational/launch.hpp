@@ -22,4 +22,8 @@ ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, d
 bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
             Flight& flight);
 
+/// Gives the energy of the launch up where an arc that matches it has no end: the next arc is
+/// solved from the node anew. @return false where flight.arc has no launch to match
+bool drop_launch(const Node& node, Flight& flight);
+
 }  // namespace saltus
