@@ -99,6 +99,10 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
   multiply_by_rates(model.packed, s.w, s.products);
   gather(model.tree, model.packed, s.products.by_joint, 1, s.L_qv_v);
   c.row = s.L_v + a.tau / 2 * (s.L_qv_v - s.L_q);
+  if (a.whole > 0) {  // of what c kappa adds, the part without second partials of kappa
+    const ShadowTerm& shadow = s.compensation->shadow;
+    c.row += a.tau * a.tau / 12 * (shadow.kappa_v + a.tau / 2 * shadow.kappa_q);
+  }
   return discrete_energy(model, a, v, s) - c.target;
 }
 

@@ -9,7 +9,7 @@ from compare.scene import Scene
 
 NAME, VERSION = "saltus", saltus.__version__
 STEP = 0.01  # [s]
-SETTING = "default law, step 10 ms"
+SETTING = "default law, step 10 ms; the break with order=symmetric"
 
 
 class Balls:
@@ -17,7 +17,9 @@ class Balls:
 
     def __init__(self, scene: Scene) -> None:
         self.model = saltus.load_urdf(scene.urdf, gravity=(0, 0, -scene.gravity))
-        self.stepper = saltus.Stepper(self.model, h=STEP)
+        orders = saltus.ImpactOrder
+        order = orders.symmetric if scene.kind == "break" else orders.fastest
+        self.stepper = saltus.Stepper(self.model, h=STEP, order=order)
         self.state = self.model.state(scene.q, scene.v)
 
     def advance(self, steps: int) -> None:
