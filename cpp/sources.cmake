@@ -43,6 +43,7 @@ set(SALTUS_SOURCES
   cpp/src/collision/pair_table.cpp
   cpp/src/collision/parts.cpp
   cpp/src/collision/shapes.cpp
+  cpp/src/collision/slip.cpp
   cpp/src/collision/solid.cpp
   cpp/src/collision/solid_features.cpp
   cpp/src/collision/sphere_box.cpp
@@ -73,15 +74,20 @@ set(SALTUS_SOURCES
   cpp/src/variational/contact_qp.cpp
   cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
+  cpp/src/variational/coulomb.cpp
   cpp/src/variational/custom_law.cpp
   cpp/src/variational/energy_meter.cpp
   cpp/src/variational/coxeter.cpp
   cpp/src/variational/flight.cpp
+  cpp/src/variational/flight_friction.cpp
+  cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
+  cpp/src/variational/grip.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp
   cpp/src/variational/node.cpp
+  cpp/src/variational/node_friction.cpp
   cpp/src/variational/options.cpp
   cpp/src/variational/overlap.cpp
   cpp/src/variational/outcomes.cpp

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "saltus/collision/slip.hpp"
+
 namespace saltus {
 namespace {
 
@@ -86,9 +88,20 @@ double discrete_energy(const ModelData& model, const ArcProblem& a, const VecX& 
          a.tau * a.tau * k.shadow.kappa / 12;
 }
 
+/// The rate at which a sticking pair slides; its gradient, but for the turning of t, in c.row.
+double slide_rate(const ModelData& model, const VecX& v, ArcConstraint& c, ArcScratch& s) {
+  c.row.setZero();
+  const Gap g = pair_gap_at_mid(model, c.watched(), s);
+  const Tangents t = tangents(g.n_W, c.axis);
+  add_motion_gradient(model.tree, s.kin_end, c.watched(), contact_point(g),
+                      c.tangent == 0 ? t.t0 : t.t1, c.row);
+  return c.row.dot(v);
+}
+
 /// c and dc/dv of one constraint; c is scaled by tau (hold), so that it stays regular at tau = 0.
 double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, ArcConstraint& c,
                   ArcScratch& s) {
+  if (c.kind == ArcConstraint::Kind::stick) return slide_rate(model, v, c, s);
   c.row.setZero();
   if (c.kind == ArcConstraint::Kind::hold) {
     const Gap g = pair_gap_at_end(model, c.watched(), s);
@@ -137,8 +150,12 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
   if (a.constraints.empty()) return size;
   s.x = a.q + a.tau * v;
   place_end(model, s.x, s);
-  for (const ArcConstraint& c : a.constraints) {
-    if (c.kind == ArcConstraint::Kind::hold) {
+  for (ArcConstraint& c : a.constraints) {
+    if (c.kind == ArcConstraint::Kind::stick) {
+      // a hundredth of what closes a gap: what slides does not come back
+      const double way = a.tau * slide_rate(model, v, c, s);
+      size = std::max(size, std::abs(way) / c.pair->touch * 1e-10);
+    } else if (c.kind == ArcConstraint::Kind::hold) {
       const double phi = pair_gap_at_end(model, c.watched(), s).phi;
       // 1e-12: a hundredth of pair.touch is closed
       size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);
@@ -203,15 +220,26 @@ void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s) {
   place(model.packed, s.w_end);
 }
 
-Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
-  for (const ChainJoint& k : pair.chain) {
-    copy_pose(model.tree, model.packed, s.w_end, k.joint, s.kin_end);
-  }
+namespace {
+
+/// Poses of the pair's joints from `w`, and the gap there.
+Gap gap_in(const ModelData& model, const Pair& pair, const Packed& w, Kinematics& kin) {
+  for (const ChainJoint& k : pair.chain) copy_pose(model.tree, model.packed, w, k.joint, kin);
   for (const Placed* part : {&pair.on_a, &pair.on_b}) {  // one may hang where the chain turns
     const int joint = part->joint;
-    if (joint >= 0) copy_pose(model.tree, model.packed, s.w_end, joint, s.kin_end);
+    if (joint >= 0) copy_pose(model.tree, model.packed, w, joint, kin);
   }
-  return pair_gap(model.tree, s.kin_end, pair);
+  return pair_gap(model.tree, kin, pair);
+}
+
+}  // namespace
+
+Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
+  return gap_in(model, pair, s.w_end, s.kin_end);
+}
+
+Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s) {
+  return gap_in(model, pair, s.w, s.kin_end);
 }
 
 bool is_converged(double residual, double before) {

@@ -10,6 +10,8 @@
 // Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
 //   hold    phi(q + tau v) = target     a sustained contact; n = phi_q at the arc's start
 //   launch  E_d = target                the paper's (11c) after an impact along n
+//   stick   t(q_mid).v = 0              the points that touch do not slide along the tangent t; n
+//                                       is the row t at the arc's start (slip.hpp)
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
 // (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
@@ -30,19 +32,23 @@
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
+#include "variational/grip.hpp"
 #include "variational/small_system.hpp"
 
 namespace saltus {
 
 struct ArcConstraint {
-  enum class Kind { hold, launch };
+  enum class Kind { hold, launch, stick };
   Kind kind = Kind::hold;
-  int place = -1;              ///< of the pair in the stepper's pool (hold)
+  int place = -1;              ///< of the pair in the stepper's pool (hold, stick)
   const Pair* pair = nullptr;  ///< likewise
   bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
   Pair face;
   double target = 0;  ///< [m] or [J]
   double lambda = 0;  ///< [N s] guess in, solution out
+  int axis = 0;       ///< of the tangents (stick, and hold where there is friction)
+  int tangent = 0;    ///< which of the two (stick)
+  Grip grip;          ///< (hold) n is phi_q - mu T^T d where it slides
   VecX n;             ///< (n_q) direction of the force
   VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
 
@@ -103,7 +109,10 @@ void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s);
 /// Gap of a pair there; add_gap_gradient with s.kin_end may follow. Needs place_end.
 Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
 
-/// What solve_arc is made of, for closing_arc.cpp.
+/// The same in the middle of the arc that was evaluated last.
+Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s);
+
+/// What solve_arc is made of, for closing_arc.cpp and flight_friction.cpp.
 ///
 /// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
 /// scaled size, infinity where it is not a number.

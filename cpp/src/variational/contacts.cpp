@@ -18,7 +18,7 @@ bool set_velocity_at_node(const ModelData& model, Node& node) {
 
 Contact& next_in_pool(Node& node) {
   if (node.touching == static_cast<int>(node.contacts.size())) {
-    node.contacts.push_back(fresh_contact(node.trees));
+    node.contacts.push_back(fresh_contact(node.trees, node.friction.any));
   }
   return node.contacts[node.touching];
 }
@@ -70,15 +70,18 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   c.friction = properties.friction;
   classify(node, speed, options.rest, c);
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
+  if (c.friction > 0) set_tangents(model, g, pair, node, c);
   node.contact_of[index] = node.touching++;
 }
 
 }  // namespace
 
-Contact fresh_contact(const TreeCoordinates& trees) {
+Contact fresh_contact(const TreeCoordinates& trees, bool with_friction) {
   Contact fresh;
-  for (ContactVector* each : {&fresh.n, &fresh.column}) {
-    each->value.reserve(2 * static_cast<std::size_t>(trees.most));
+  const auto most = 2 * static_cast<std::size_t>(trees.most);
+  for (ContactVector* each : {&fresh.n, &fresh.column}) each->value.reserve(most);
+  for (int k = 0; k < 2 && with_friction; ++k) {
+    for (ContactVector* each : {&fresh.t[k], &fresh.t_column[k]}) each->value.reserve(most);
   }
   return fresh;
 }
@@ -106,6 +109,7 @@ int place_of(const ModelData& model, int number, Node& node) {
     node.contact_of.resize(pairs, -1);
     node.held.resize(pairs, 0);
     node.sunk.resize(pairs, 0);
+    if (node.friction.any) node.friction.memory.resize(pairs);
   }
   return place;
 }
@@ -116,6 +120,7 @@ void forget_pairs(Node& node) {
   node.contact_of.assign(static_cast<std::size_t>(node.pool.size()), -1);
   node.held.assign(node.contact_of.size(), 0);
   node.sunk.assign(node.contact_of.size(), 0);
+  if (node.friction.any) node.friction.memory.assign(node.contact_of.size(), {});
 }
 
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
+#include "saltus/collision/slip.hpp"
+#include "variational/flight_friction.hpp"
 #include "variational/impact_time.hpp"
 #include "variational/launch.hpp"
 
@@ -27,6 +29,8 @@ bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
   c.pair = &node.pool[pair];
+  c.grip = {};
+  c.axis = tangent_axis(contact.n_W);
   c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
   if (c.in_face) {
     hold_in_face(model, contact, *c.pair, node, c);
@@ -172,11 +176,12 @@ FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options,
 
 }  // namespace
 
-Flight::Flight(const ModelData& model, const StepOptions& options)
+Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
     : history(model.tree.coordinates),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints) {
+      constraints(most_constraints),
+      slip(with_friction, model.tree.coordinates) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
   const int n_q = model.tree.coordinates;
@@ -194,12 +199,13 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   std::fill(f.flips.begin(), f.flips.end(), 0);
   f.active = 0;
   if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
+  if (node.friction.any && !start_grips(left, node, f)) return FlightOutcome::too_many_contacts;
   if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
   double tau = left;
   bool solved = true;
   f.has_rate = false;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
-  const int most_turns = 10 + 4 * node.pool.size();
+  const int most_turns = (node.friction.any ? 100 : 10) + 4 * node.pool.size();
   for (int turn = 0; turn < most_turns; ++turn) {
     if (!solved && !solve_flight_arc(model, options, tau, node, f)) {
       if (!drop_launch(node, f)) return FlightOutcome::not_converged;
@@ -211,9 +217,15 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
     const Holds holds = update_holds(model, node, f);
     if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
-    if (holds == Holds::changed) continue;
+    const Grips grips = update_grips(model, options, holds == Holds::changed, node, f);
+    if (grips == Grips::too_many) return FlightOutcome::too_many_contacts;
+    if (grips == Grips::not_settled) return FlightOutcome::friction_not_settled;
+    if (holds == Holds::changed || grips == Grips::changed) continue;
     const FirstHit hit = first_hit(model, node, f);
-    if (hit.pair < 0) return FlightOutcome::arrived;
+    if (hit.pair < 0) {
+      remember_grips(node, f);
+      return FlightOutcome::arrived;
+    }
     const bool hop = is_hop(node, hit.pair);
     f.start_v = f.arc.v;
     f.closing = hit.pair;

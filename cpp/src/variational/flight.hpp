@@ -20,8 +20,22 @@
 
 namespace saltus {
 
+/// Rows T of a hold in the middle of the arc, and J^-1 of those at its start.
+struct SlipRows {
+  VecX t0, t1, column0, column1;  ///< (n_q)
+};
+
+/// Scratch of flight_friction.cpp; empty without friction.
+struct SlipScratch {
+  SlipScratch(bool with_friction, int n_q);
+  FrictionScratch friction;   ///< of the holds; `contact` are their constraints
+  std::vector<SlipRows> row;  ///< (most_constraints) of the holds
+  std::vector<Vec3> before;
+  int rounds = 0;
+};
+
 struct Flight {
-  Flight(const ModelData& model, const StepOptions& options);
+  Flight(const ModelData& model, const StepOptions& options, bool with_friction);
 
   Arc arc;  ///< the result
   GuessHistory history;
@@ -41,6 +55,7 @@ struct Flight {
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
+  SlipScratch slip;
 };
 
 enum class FlightOutcome {
@@ -48,7 +63,8 @@ enum class FlightOutcome {
   not_converged,
   too_many_contacts,
   no_progress,
-  impact_not_located,  ///< of the pair flight.closing
+  impact_not_located,    ///< of the pair flight.closing
+  friction_not_settled,  ///< likewise
 };
 
 /// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs

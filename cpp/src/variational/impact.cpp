@@ -65,14 +65,26 @@ void apply_impulses(Node& node) {
   }
 }
 
-void tell(const Node& node, ImpactLaw law, StepReport& report) {
+void tell(const Node& node, ImpactLaw law, bool fallback, StepReport& report) {
   const int first = static_cast<int>(report.impulses.size());
   for (const Impulse& impulse : node.impulses) {
     const int pair = node.contacts[impulse.pair].pair;
     report.impulses.push_back({node.pool.number(pair), impulse.lambda});
   }
   const int count = static_cast<int>(node.impulses.size());
-  report.impacts.push_back({node.t, first, count, node.touching, law, false});
+  report.impacts.push_back({node.t, first, count, node.touching, law, fallback});
+}
+
+/// What friction takes is not known before: no energy is there to be matched, and every law is
+/// nodal_energy.
+bool resolve_with_friction(const ModelData& model, const StepOptions& options, Node& node,
+                           StepReport& report) {
+  node.impulses.clear();
+  if (!collide_at_node(model, {options.order, options.max_impulses}, node, report)) return false;
+  constexpr ImpactLaw law = ImpactLaw::nodal_energy;
+  tell(node, law, options.law != law, report);
+  settle_velocities(model, options, node);
+  return true;
 }
 
 }  // namespace
@@ -90,6 +102,9 @@ bool can_open(const Node& node) {
 
 bool resolve_node_impact(const ModelData& model, const StepOptions& options, double energy,
                          Node& node, StepReport& report) {
+  if (options.law != ImpactLaw::custom && has_friction(node)) {
+    return resolve_with_friction(model, options, node, report);
+  }
   set_contact_matrix(model, node);
   const int m = node.touching;
   node.impulses.clear();
@@ -104,7 +119,7 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
     apply_impulses(node);
     if (options.law != ImpactLaw::nodal_energy) prepare_launch(energy, node);
   }
-  tell(node, options.law, report);
+  tell(node, options.law, false, report);
   if (options.certify) report.certificates.push_back(certify(node));
   settle_velocities(model, options, node);
   return true;

@@ -16,6 +16,11 @@ constexpr std::size_t impulses_reserved = 1024;
 /// Of the contacts that one tree takes part in.
 constexpr std::size_t most_on_a_tree = 64;
 
+bool have_friction(const MaterialTable& materials) {
+  const auto& all = materials.contact;
+  return std::any_of(all.begin(), all.end(), [](const auto& each) { return each.friction > 0; });
+}
+
 /// The contacts of every tree, in order.
 void list_contacts_by_tree(Node& node) {
   for (int i = 0; i < node.touching; ++i) {
@@ -73,6 +78,7 @@ Node::Node(const ModelData& model)
       contact_of(static_cast<std::size_t>(pool.size()), -1),
       held(contact_of.size(), 0),
       sunk(contact_of.size(), 0),
+      friction(have_friction(model.materials)),
       w(model.packed),
       kin(model.tree),
       M(model.tree, model.packed),
@@ -87,13 +93,14 @@ Node::Node(const ModelData& model)
   }
   const std::size_t reserved =
       std::min(static_cast<std::size_t>(model.pairs.size()), contacts_reserved);
-  for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees));
+  for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees, friction.any));
   G.start.reserve(reserved + 1);
   G.diagonal.reserve(reserved);
   G.column.reserve(reserved * reserved);
   G.value.reserve(reserved * reserved);
   cascade.key.reserve(reserved);
   cascade.winner.reserve(4 * reserved);
+  if (friction.any) friction.memory.resize(contact_of.size());
   contacts_on.resize(trees.of.size());
   for (auto& each : contacts_on) each.reserve(std::min(reserved, most_on_a_tree));
   impulses.reserve(impulses_reserved);
@@ -143,6 +150,7 @@ void come_to_rest(const ModelData& model, int contact, Node& node) {
 }
 
 void settle_held_contacts(const ModelData& model, Node& node) {
+  if (settle_with_friction(model, node)) return refresh_motions(node);
   std::array<int, most_constraints> held;
   int count = 0;
   for (int i = 0; i < node.touching && count < most_constraints; ++i) {

@@ -6,6 +6,7 @@
 // of the speeds that there are, so that rounding is no impact.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "saltus/collision/broad_phase.hpp"
@@ -14,6 +15,7 @@
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/report.hpp"
 #include "variational/contact_vector.hpp"
+#include "variational/grip.hpp"
 #include "variational/pair_pool.hpp"
 
 namespace saltus {
@@ -29,6 +31,9 @@ struct Contact {
   Vec3 n_W, p_WB;        ///< [m] normal, witness on b
   ContactVector n;       ///< phi_q
   ContactVector column;  ///< M^-1 n, written by the impact
+  // where friction > 0
+  std::array<Vec3, 2> t_W;                 ///< tangents t0, t1
+  std::array<ContactVector, 2> t, t_column;  ///< the rows T along them, slip.hpp; M^-1 T
 };
 
 /// What laws other than nodal_energy ask of the arc after an impact: this energy, by a change of
@@ -53,6 +58,7 @@ struct Node {
   std::vector<double> sunk;  ///< (pool) [m] phi of a pair that is silent here; else 0. Edges that
                              ///< meet at their ends, which corners watch: minus infinity
   Launch launch;
+  FrictionScratch friction;
 
   // scratch
   Packed w;
@@ -74,7 +80,7 @@ struct Node {
 // contacts.cpp
 
 /// With room for the rows of any pair.
-Contact fresh_contact(const TreeCoordinates& trees);
+Contact fresh_contact(const TreeCoordinates& trees, bool with_friction);
 
 Contact::Motion motion_of(double u, double epsilon_u);
 
@@ -112,6 +118,23 @@ void set_contact_matrix(const ModelData& model, Node& node);
 
 /// H(q, p) [J] at a node. Needs set_configuration at q in node.kin and v.
 double node_energy(const ModelData& model, const Node& node);
+
+// node_friction.cpp
+
+/// Writes t_W and t of a contact. Needs the parts of c.n.
+void set_tangents(const ModelData& model, const Gap& gap, const Pair& pair, Node& node, Contact& c);
+
+/// True where some pair that touches has friction.
+bool has_friction(const Node& node);
+
+/// The impact with friction: changes p and v, appends to node.impulses and report.friction.
+/// @return false when it does not end
+bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node,
+                     StepReport& report);
+
+/// settle_held_contacts with friction: likewise of the sliding of those that stick. Changes p, v.
+/// @return false, and nothing changed, where no contact that is held has friction
+bool settle_with_friction(const ModelData& model, Node& node);
 
 // impact.cpp
 

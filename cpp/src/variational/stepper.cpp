@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "variational/check_options.hpp"
-#include "variational/flight.hpp"
+#include "variational/flight_friction.hpp"
 #include "variational/impact_time.hpp"
 
 namespace saltus {
@@ -14,11 +14,12 @@ struct Stepper::Impl {
       : model(with_options.collisions ? with : with.without_collisions()),
         options(with_options),
         node(*model),
-        flight(*model, options) {
+        flight(*model, options, node.friction.any) {
     last.q.setZero(model.n_q());
     last.p.setZero(model.n_q());
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
+    if (node.friction.any) report.friction.reserve(1024);
     report.settlings.reserve(64);
   }
 
@@ -72,6 +73,7 @@ void Stepper::Impl::step(State& state) {
   report.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
+  report.friction.clear();
   report.settlings.clear();
   report.certificates.clear();
   flight.settlings.clear();
@@ -100,6 +102,7 @@ void Stepper::Impl::start(const State& state) {
   start_anew(flight.broad);
   if (node.pool.is_full()) forget_pairs(node);
   std::fill(node.held.begin(), node.held.end(), 0);
+  ++node.friction.flight;  // what friction did before is no guess
   node.t = state.t;
   node.q = state.q;
   node.p = state.p;
@@ -144,7 +147,7 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
   ++report.arcs;
-  report.sustained += flight.active;
+  report.sustained += count_holds(flight);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
 }
 
@@ -225,12 +228,17 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
   const Arc& arc = flight.arc;
   switch (outcome) {
     case FlightOutcome::too_many_contacts:
-      text << "more than " << most_constraints << " sustained contacts at t = " << node.t
-           << " s: " << contact_list();
+      text << "more than " << most_constraints << " sustained contacts (three each where they stick) at t = "
+           << node.t << " s: " << contact_list();
       break;
     case FlightOutcome::impact_not_located:
       text << "the time after t = " << node.t << " s at which "
            << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
+      break;
+    case FlightOutcome::friction_not_settled:
+      text << "friction at t = " << node.t << " s: "
+           << model.pair_name(node.pool.number(flight.closing))
+           << " neither sticks nor slides, a smaller h helps where it turns fast";
       break;
     case FlightOutcome::no_progress:
       text << "contacts at t = " << node.t

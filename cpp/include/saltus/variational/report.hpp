@@ -14,6 +14,12 @@ struct Impulse {
   double lambda;  ///< [N s] >= 0
 };
 
+/// What friction added to an impulse at an impact.
+struct TangentialImpulse {
+  int impulse;  ///< index in StepReport::impulses
+  Vec3 p_W;     ///< [N s] on the pair's first shape, across the normal; at most mu lambda
+};
+
 /// All impulses at one instant.
 struct Impact {
   double t;   ///< [s]
@@ -38,6 +44,7 @@ struct StepReport {
   double residual = 0;  ///< [largest momentum] of the worst arc
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
+  std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
   std::vector<Settling> settlings;
   std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
 };

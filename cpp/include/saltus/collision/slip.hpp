@@ -1,0 +1,34 @@
+// How two bodies slide on each other where they touch: rows of the relative velocity at a point.
+//
+// With P the place of contact, and the material points of a and b that are there now,
+//
+//   d.(v_a(P) - v_b(P)) = sum_k d.(s_k (w_k x P + v_k)) v[k]       chain from b to a, contact.hpp
+//
+// d = n gives the gap's gradient phi_q, d = t0, t1 the two rows T of the tangential motion.
+#pragma once
+
+#include "saltus/collision/contact.hpp"
+
+namespace saltus {
+
+/// t0, t1, n are right-handed and orthonormal.
+struct Tangents {
+  Vec3 t0, t1;
+};
+
+/// The coordinate axis that n is farthest from; of equals y, then z, then x.
+SALTUS_EXPORT int tangent_axis(const Vec3& n_W);
+
+/// t1 is that axis but for its part along n, so that in a scene in a coordinate plane t0 lies in
+/// the plane and t1 across it, exactly. Needs an axis that n is not along.
+SALTUS_EXPORT Tangents tangents(const Vec3& n_W, int axis);
+
+/// Where the two touch: halfway between the witnesses, which are one point where phi = 0.
+inline Vec3 contact_point(const Gap& gap) { return (gap.p_WA + gap.p_WB) / 2; }
+
+/// Adds the gradient of the motion along d_W, at P_W, to `row` (n_q), through the drives of mimic
+/// joints.
+SALTUS_EXPORT void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                       const Vec3& P_W, const Vec3& d_W, Eigen::Ref<VecX> row);
+
+}  // namespace saltus

@@ -1,0 +1,65 @@
+// What friction does at contacts that stay closed: each slides, sticks, or is not pressed.
+//
+// `settle` (friction.hpp) says which of these a contact does, and its impulse to some digits. With
+// that known the equations are linear, and `polish` solves them to rounding:
+//
+//   sticks  u_n = 0, u_t = 0      unknown lambda, beta
+//   slides  u_n = 0               unknown lambda, beta = -mu lambda d, d = u_t / |u_t|
+//
+// Where contacts are redundant (four legs of a table) there are many solutions; it is the change of
+// the impulses that is kept the shortest, so that those found by `settle` stay within their cones.
+#pragma once
+
+#include <vector>
+
+#include "saltus/variational/friction.hpp"
+#include "variational/coulomb.hpp"
+
+namespace saltus {
+
+struct Grip {
+  enum class Mode : char { none, slides, sticks };  ///< none: not pressed, or mu = 0
+  Mode mode = Mode::none;
+  Vec2 slide = Vec2::Zero();  ///< unit direction in the contact's tangents, where it slides
+};
+
+/// Of a contact with these rates under this impulse.
+/// @param rest [m/s] slower is no sliding
+Grip grip_of(const Vec3& u, const Vec3& p, double friction, double rest);
+
+/// What an impulse of lambda does where it slides, per lambda: (1, -mu d).
+inline Vec3 slide_direction(const Grip& grip, double friction) {
+  return {1, -friction * grip.slide[0], -friction * grip.slide[1]};
+}
+
+/// True where a contact can feel its tangent k (1, 2) at all.
+inline bool has_tangent(const Mat3& W, int k) { return W(k, k) > 1e-20 * W(0, 0); }
+
+/// What an impulse was in the last arc, for a guess.
+struct GripMemory {
+  Grip grip;
+  Vec3 p = Vec3::Zero();  ///< [N s] over `tau`
+  double tau = 0;         ///< [s]
+  int flight = -1;        ///< its number; an older one is no guess
+};
+
+/// What a node or a flight keeps of friction; empty where no materials have any.
+struct FrictionScratch {
+  explicit FrictionScratch(bool with_friction);
+  bool any;  ///< some pair of materials has friction
+  ContactBlocks W;
+  std::vector<Vec3> u, p;
+  std::vector<int> contact;  ///< of each block: an index in the node's or flight's list
+  std::vector<FrictionImpulse> impulses;
+  std::vector<GripMemory> memory;  ///< (pool), of a node
+  int flight = 0;                  ///< the number of the flight that leaves the node
+};
+
+/// u = 0 to rounding where contacts are pressed, see above. u and p stay as they are where that is
+/// out of reach: too many contacts, or impulses that would leave their cones.
+void polish(const ContactBlocks& W, std::vector<Vec3>& u, std::vector<Vec3>& p);
+
+/// Gauss-Seidel sweeps at most: redundant contacts gain a digit in 5 to 50.
+inline constexpr int most_sweeps = 2000;
+
+}  // namespace saltus
