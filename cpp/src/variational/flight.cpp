@@ -248,6 +248,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
       case ImpactTime::settles:
         f.settlings.push_back({node.t + f.settling_time, hit.pair});
         come_to_rest(model, node.contact_of[hit.pair], node);
+        node.held[hit.pair] = 0;  // until this arc presses it, or it would fall through
         f.arc.v = f.start_v;
         if (impact_pending(node)) return arrive_at_once(model, options, node, f);
         break;

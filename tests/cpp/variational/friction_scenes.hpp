@@ -1,6 +1,8 @@
 // Bodies on floors and slopes with friction, that several tests play with.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "scenes.hpp"

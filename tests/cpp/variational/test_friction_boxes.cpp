@@ -64,8 +64,8 @@ TEST(FrictionBoxes, ABoxThrownOnTheFloorComesToRest) {
   EXPECT_NEAR(end.q[2], 0, 1e-10);
 }
 
-// Between two walls that it is too wide for, without friction it would fall through.
-TEST(FrictionBoxes, ABallOnALeaningBoxDoesNotPushItAway) {
+// The coordinates of a free body are angles: energy is in a band of order h^2, as it is in flight.
+TEST(FrictionBoxes, ABallRollsOnABox) {
   ModelBuilder b("ball on box");
   const Vec3 base(0.3, 0.3, 0.05);
   b.add_link({"box", solid_box(4, base)});
@@ -86,7 +86,7 @@ TEST(FrictionBoxes, ABallOnALeaningBoxDoesNotPushItAway) {
   const Model model = b.build();
   // the ball is pushed along, with a spin about the vertical that friction at a point does not feel
   const State start = model.state({}, {{"ball_x", 0.3}, {"ball_y", 0.1}, {"ball_yaw", 2}});
-  const State end = run_losing_energy(model, start, 0.5, 0.005, 1e-9);
+  const State end = run_losing_energy(model, start, 0.5, 0.005, 1e-7);
   const VecX v = model.velocity(end);
   EXPECT_LE(v.head(6).cwiseAbs().maxCoeff(), 1e-12);  // the box is heavy enough not to slide
   EXPECT_NEAR(v[6], 5. / 7 * 0.3, 1e-3);
