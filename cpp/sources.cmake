@@ -92,6 +92,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/overlap.cpp
   cpp/src/variational/outcomes.cpp
   cpp/src/variational/pair_pool.cpp
+  cpp/src/variational/slip_blocks.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp
   # rollout

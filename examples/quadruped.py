@@ -1,7 +1,7 @@
 """A quadruped stands on a floor for 2 s, its knees locked, and a parcel lies on its trunk.
 
 Nothing moves: four feet bear 12 kg, four corners of the parcel 2 kg. (Joints have no motors or
-springs yet, and there is no friction: it stands as a table does on ice.)
+springs yet, and the floor is given no friction: it stands as a table does on ice.)
 """
 
 import saltus

@@ -31,6 +31,7 @@ set(SALTUS_TEST_collision
   collision/test_hull.cpp
   collision/test_no_allocation.cpp
   collision/test_pair_table.cpp
+  collision/test_slip.cpp
 )
 set(SALTUS_TEST_model
   model/test_assembly.cpp
@@ -49,6 +50,9 @@ set(SALTUS_TEST_variational
   variational/test_cradle.cpp
   variational/test_discrete_energy.cpp
   variational/test_forget.cpp
+  variational/test_friction.cpp
+  variational/test_friction_boxes.cpp
+  variational/test_friction_impact.cpp
   variational/test_hard_cases.cpp
   variational/test_laws.cpp
   variational/test_impact_outcomes.cpp

@@ -45,6 +45,12 @@ PREDICTED = {
         "leave as [-2.0, 0.0, 1.0, 1.0, 3.0], 7 impulses",
         "digits of pi: 3 31 314 3141",
     ],
+    "incline": [
+        "15 degrees, slope 0.268: stays",
+        "25 degrees, slope 0.466: stays",
+        "30 degrees, slope 0.577: slides 0.328573 m, speed 0.657145 m/s",
+        "35 degrees, slope 0.700: slides 0.804422 m, speed 1.608844 m/s",
+    ],
     "laws": [
         "nodal_energy: 99 impacts, error of H below 2e-06 J\n",
         "discrete_energy: 99 impacts, error of H above 1e-04 J\n",

@@ -44,13 +44,14 @@ struct ArcConstraint {
   const Pair* pair = nullptr;  ///< likewise
   bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
   Pair face;
-  double target = 0;  ///< [m] or [J]
-  double lambda = 0;  ///< [N s] guess in, solution out
-  int axis = 0;       ///< of the tangents (stick, and hold where there is friction)
-  int tangent = 0;    ///< which of the two (stick)
-  Grip grip;          ///< (hold) n is phi_q - mu T^T d where it slides
-  VecX n;             ///< (n_q) direction of the force
-  VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
+  double target = 0;            ///< [m] or [J]
+  double lambda = 0;            ///< [N s] guess in, solution out
+  int axis = 0;                 ///< of the tangents (stick, and hold where there is friction)
+  int tangent = 0;              ///< which of the two (stick)
+  Grip grip;                    ///< (hold) n is phi_q - mu T^T d where it slides
+  Vec2 carried = Vec2::Zero();  ///< (hold) [N s] along tangents that no `stick` solves for
+  VecX n;                       ///< (n_q) direction of the force
+  VecX row, column;             ///< (n_q) scratch: dc/dv and J^-1 n
 
   const Pair& watched() const { return in_face ? face : *pair; }
 };

@@ -125,8 +125,8 @@ Vec3 collide_contact(const Mat3& W, const Vec3& u, double friction, double resti
   if (!(restitution > 0)) return p;
   const double more = restitution * p[0];
   const Vec3 between = u + W * p;
-  const Vec2 beta = tangential(W, axes_of(W.bottomRightCorner<2, 2>()), between, more,
-                               friction * more);
+  const Vec2 beta =
+      tangential(W, axes_of(W.bottomRightCorner<2, 2>()), between, more, friction * more);
   return p + Vec3(more, beta[0], beta[1]);
 }
 

@@ -30,6 +30,7 @@ bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
   c.pair = &node.pool[pair];
   c.grip = {};
+  c.carried.setZero();
   c.axis = tangent_axis(contact.n_W);
   c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
   if (c.in_face) {

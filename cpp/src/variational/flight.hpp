@@ -29,9 +29,12 @@ struct SlipRows {
 struct SlipScratch {
   SlipScratch(bool with_friction, int n_q);
   FrictionScratch friction;   ///< of the holds; `contact` are their constraints
+  ContactBlocks at_start;     ///< W with all rows at the arc's start: who depends on whom
   std::vector<SlipRows> row;  ///< (most_constraints) of the holds
   std::vector<Vec3> before;
   int rounds = 0;
+  bool carries = false;  ///< some impulses are no unknowns of the arc:
+  VecX carried, p;       ///< (n_q) their sum; the node's p and that, written by arc_problem
 };
 
 struct Flight {

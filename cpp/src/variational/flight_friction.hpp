@@ -1,8 +1,8 @@
 // Friction of the contacts that a flight holds closed.
 //
-// Theory, section 6, with Coulomb's law for the arc: each held contact sticks (two constraints more,
-// T v = 0 at the arc's middle) or slides (its force is along n - mu T^T d, d = T v / |T v|). Rows
-// of the forces are those at the arc's start, and the closing half kick at its end is
+// Theory, section 6, with Coulomb's law for the arc: each held contact sticks (two constraints
+// more, T v = 0 at the arc's middle) or slides (its force is along n - mu T^T d, d = T v / |T v|).
+// Rows of the forces are those at the arc's start, and the closing half kick at its end is
 // settle_with_friction: the same law for M^-1 p there.
 //
 // An arc is solved with what the one before did. If that breaks Coulomb's law, the law is solved

@@ -1,6 +1,7 @@
 #include "saltus/variational/friction.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -51,6 +52,23 @@ ContactBlocks blocks_of(const MatX& W, const VecX& rest, const VecRef& e, const 
   return out;
 }
 
+bool all_plastic(const ContactBlocks& W) {
+  return W.size() > 1 &&
+         std::all_of(W.restitution.begin(), W.restitution.end(), [](double e) { return e == 0; });
+}
+
+/// Contacts that do not rebound are resolved all at once: no order, no convention.
+bool stop_together(const ContactBlocks& W, const CascadeOptions& options, std::vector<Vec3>& u,
+                   std::vector<Vec3>& p, std::vector<FrictionImpulse>& impulses) {
+  p.assign(u.size(), Vec3::Zero());
+  settle(W, options.max_impulses, u, p);
+  if (next_contact(W, ImpactOrder::index, u) >= 0) return false;
+  for (int i = 0; i < W.size(); ++i) {
+    if (p[i][0] > 0) impulses.push_back({i, p[i]});
+  }
+  return true;
+}
+
 void check_friction(const Eigen::Ref<const MatX>& N, const Eigen::Ref<const MatX>& T,
                     const VecRef& friction) {
   std::ostringstream text;
@@ -70,7 +88,8 @@ void check_friction(const Eigen::Ref<const MatX>& N, const Eigen::Ref<const MatX
 }  // namespace
 
 bool collide(const ContactBlocks& W, const CascadeOptions& options, std::vector<Vec3>& u,
-             std::vector<FrictionImpulse>& impulses) {
+             std::vector<Vec3>& scratch, std::vector<FrictionImpulse>& impulses) {
+  if (all_plastic(W)) return stop_together(W, options, u, scratch, impulses);
   for (int count = 0;; ++count) {
     const int i = next_contact(W, options.order, u);
     if (i < 0) return true;
@@ -119,7 +138,8 @@ FrictionOutcome resolve_impact(const Eigen::Ref<const MatX>& M, const Eigen::Ref
   std::vector<Vec3> u(static_cast<std::size_t>(m));
   for (Eigen::Index i = 0; i < m; ++i) u[static_cast<std::size_t>(i)] = R.middleRows(3 * i, 3) * v;
   FrictionOutcome out{v, {}};
-  if (!collide(W, options, u, out.impulses)) {
+  std::vector<Vec3> scratch;
+  if (!collide(W, options, u, scratch, out.impulses)) {
     std::ostringstream text;
     text << "the impact does not end within " << options.max_impulses
          << " impulses: bodies jammed between others, or max_impulses is too small";

@@ -1,8 +1,6 @@
 #include "variational/grip.hpp"
 
-#include <array>
-
-#include "variational/small_system.hpp"
+#include <cmath>
 
 namespace saltus {
 namespace {
@@ -27,14 +25,20 @@ struct Unknowns {
 
 bool list_unknowns(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p,
                    Unknowns& x) {
+  IndependentRates rates(W);
   for (int i = 0; i < W.size(); ++i) {
     if (!(p[i][0] > 0)) continue;
     const Grip grip = grip_of(u[i], p[i], W.friction[i], W.rest[i]);
     const bool slides = grip.mode == Grip::Mode::slides;
     if (!x.add(i, 0, slides ? slide_direction(grip, W.friction[i]) : Vec3::UnitX())) return false;
-    if (grip.mode != Grip::Mode::sticks) continue;
-    for (const int k : {1, 2}) {
-      if (has_tangent(W.own[i], k) && !x.add(i, k, Vec3::Unit(k))) return false;
+    rates.take(i, 0);
+  }
+  const int normals = x.count;
+  for (int k = 0; k < normals; ++k) {
+    const int i = x.of[static_cast<std::size_t>(k)].contact;
+    if (grip_of(u[i], p[i], W.friction[i], W.rest[i]).mode != Grip::Mode::sticks) continue;
+    for (const int rate : {1, 2}) {
+      if (rates.take(i, rate) && !x.add(i, rate, Vec3::Unit(rate))) return false;
     }
   }
   return true;
@@ -57,17 +61,52 @@ void set_system(const ContactBlocks& W, const Unknowns& x, const std::vector<Vec
 
 }  // namespace
 
-FrictionScratch::FrictionScratch(bool with_friction) : any(with_friction) {
-  if (!any) return;
+void reserve_blocks(ContactBlocks& W) {
   constexpr std::size_t reserved = most_constraints;
   W.start.reserve(reserved + 1);
   W.contact.reserve(reserved * reserved);
   W.block.reserve(reserved * reserved);
   W.own.reserve(reserved);
   for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(reserved);
-  for (auto* each : {&u, &p}) each->reserve(reserved);
-  contact.reserve(reserved);
+}
+
+FrictionScratch::FrictionScratch(bool with_friction) : any(with_friction) {
+  if (!any) return;
+  reserve_blocks(W);
+  for (auto* each : {&u, &p}) each->reserve(most_constraints);
+  contact.reserve(most_constraints);
   impulses.reserve(1024);
+}
+
+double IndependentRates::entry(int contact, int rate, int k) const {
+  const int other = contact_[static_cast<std::size_t>(k)];
+  const int other_rate = rate_[static_cast<std::size_t>(k)];
+  double sum = 0;
+  for (int e = W_.start[contact]; e < W_.start[contact + 1]; ++e) {
+    if (W_.contact[e] == other) sum += W_.block[e](other_rate, rate);
+  }
+  for (int e = W_.start[other]; e < W_.start[other + 1]; ++e) {
+    if (W_.contact[e] == contact) sum += W_.block[e](rate, other_rate);
+  }
+  return sum / 2;
+}
+
+bool IndependentRates::take(int contact, int rate) {
+  if (count_ == most_constraints) return false;
+  if (count_ == 0) L_.setZero(most_constraints, most_constraints);
+  const double own = W_.own[contact](rate, rate);
+  double left = own;
+  for (int k = 0; k < count_; ++k) {
+    double x = entry(contact, rate, k);
+    for (int j = 0; j < k; ++j) x -= L_(count_, j) * L_(k, j);
+    L_(count_, k) = x /= L_(k, k);
+    left -= x * x;
+  }
+  if (!(left > 1e-9 * own)) return false;
+  L_(count_, count_) = std::sqrt(left);
+  contact_[static_cast<std::size_t>(count_)] = contact;
+  rate_[static_cast<std::size_t>(count_++)] = rate;
+  return true;
 }
 
 Grip grip_of(const Vec3& u, const Vec3& p, double friction, double rest) {

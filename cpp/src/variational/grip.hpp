@@ -6,14 +6,17 @@
 //   sticks  u_n = 0, u_t = 0      unknown lambda, beta
 //   slides  u_n = 0               unknown lambda, beta = -mu lambda d, d = u_t / |u_t|
 //
-// Where contacts are redundant (four legs of a table) there are many solutions; it is the change of
-// the impulses that is kept the shortest, so that those found by `settle` stay within their cones.
+// Where contacts are redundant (four legs of a table) there are many solutions: rates that others
+// imply are left out, with their impulses as `settle` found them, and of redundant normals it is
+// the change that is kept the shortest. So all impulses stay within their cones.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "saltus/variational/friction.hpp"
 #include "variational/coulomb.hpp"
+#include "variational/small_system.hpp"
 
 namespace saltus {
 
@@ -32,16 +35,33 @@ inline Vec3 slide_direction(const Grip& grip, double friction) {
   return {1, -friction * grip.slide[0], -friction * grip.slide[1]};
 }
 
-/// True where a contact can feel its tangent k (1, 2) at all.
-inline bool has_tangent(const Mat3& W, int k) { return W(k, k) > 1e-20 * W(0, 0); }
+/// Rates that do not follow from each other: a Cholesky factor of W that grows by a row each.
+class IndependentRates {
+ public:
+  explicit IndependentRates(const ContactBlocks& W) : W_(W) {}
+  /// Takes one more. @return false where it follows from those taken, or there is no room
+  bool take(int contact, int rate);
+
+ private:
+  double entry(int contact, int rate, int k) const;  ///< with the k-th taken, of W made symmetric
+
+  const ContactBlocks& W_;
+  std::array<int, most_constraints> contact_, rate_;
+  int count_ = 0;
+  SmallMat L_;
+};
 
 /// What an impulse was in the last arc, for a guess.
 struct GripMemory {
   Grip grip;
-  Vec3 p = Vec3::Zero();  ///< [N s] over `tau`
-  double tau = 0;         ///< [s]
-  int flight = -1;        ///< its number; an older one is no guess
+  Vec3 p = Vec3::Zero();            ///< [N s] over `tau`
+  std::array<bool, 2> solved = {};  ///< its tangents that are constraints, where it sticks
+  double tau = 0;                   ///< [s]
+  int flight = -1;                  ///< its number; an older one is no guess
 };
+
+/// Room for most_constraints contacts.
+void reserve_blocks(ContactBlocks& W);
 
 /// What a node or a flight keeps of friction; empty where no materials have any.
 struct FrictionScratch {

@@ -122,7 +122,9 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
 
 ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
   const std::span constraints(f.constraints.data(), static_cast<std::size_t>(f.active));
-  return {node.q, node.p, tau, constraints, whole_step(options)};
+  const VecX& p = f.slip.carries && f.active > 0 ? f.slip.p : node.p;
+  if (&p == &f.slip.p) f.slip.p = node.p + f.slip.carried;
+  return {node.q, p, tau, constraints, whole_step(options)};
 }
 
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,

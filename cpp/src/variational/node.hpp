@@ -32,7 +32,7 @@ struct Contact {
   ContactVector n;       ///< phi_q
   ContactVector column;  ///< M^-1 n, written by the impact
   // where friction > 0
-  std::array<Vec3, 2> t_W;                 ///< tangents t0, t1
+  std::array<Vec3, 2> t_W;                   ///< tangents t0, t1
   std::array<ContactVector, 2> t, t_column;  ///< the rows T along them, slip.hpp; M^-1 T
 };
 

@@ -7,7 +7,9 @@ namespace {
 
 /// Row or column k of a contact: n, t0, t1.
 const ContactVector& row(const Contact& c, int k) { return k == 0 ? c.n : c.t[k - 1]; }
-const ContactVector& column(const Contact& c, int k) { return k == 0 ? c.column : c.t_column[k - 1]; }
+const ContactVector& column(const Contact& c, int k) {
+  return k == 0 ? c.column : c.t_column[k - 1];
+}
 int rates(const Contact& c) { return c.friction > 0 ? 3 : 1; }
 
 bool share_a_tree(const ContactVector& x, const ContactVector& y) {
@@ -102,7 +104,7 @@ bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node
   for (int i = 0; i < node.touching; ++i) s.contact.push_back(i);
   set_blocks(model, node);
   s.impulses.clear();
-  if (!collide(s.W, options, s.u, s.impulses)) return false;
+  if (!collide(s.W, options, s.u, s.p, s.impulses)) return false;
   for (const FrictionImpulse& each : s.impulses) {
     const Contact& c = node.contacts[each.contact];
     apply(c, each.p, node);

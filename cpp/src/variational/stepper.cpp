@@ -228,16 +228,17 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
   const Arc& arc = flight.arc;
   switch (outcome) {
     case FlightOutcome::too_many_contacts:
-      text << "more than " << most_constraints << " sustained contacts (three each where they stick) at t = "
-           << node.t << " s: " << contact_list();
+      text << "more than " << most_constraints
+           << " sustained contacts (three each where they stick) at t = " << node.t
+           << " s: " << contact_list();
       break;
     case FlightOutcome::impact_not_located:
       text << "the time after t = " << node.t << " s at which "
            << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
       break;
     case FlightOutcome::friction_not_settled:
-      text << "friction at t = " << node.t << " s: "
-           << model.pair_name(node.pool.number(flight.closing))
+      text << "friction at t = " << node.t
+           << " s: " << model.pair_name(node.pool.number(flight.closing))
            << " neither sticks nor slides, a smaller h helps where it turns fast";
       break;
     case FlightOutcome::no_progress:

@@ -29,15 +29,13 @@ Scene random_scene(int contacts, double greatest_friction, std::mt19937& random)
   return s;
 }
 
-FrictionOutcome resolve(const Scene& s) {
-  return resolve_impact(s.M, s.N, s.T, s.v, s.e, s.mu);
-}
+FrictionOutcome resolve(const Scene& s) { return resolve_impact(s.M, s.N, s.T, s.v, s.e, s.mu); }
 
 double energy(const MatX& M, const VecX& v) { return v.dot(M * v) / 2; }
 
 TEST(FrictionImpact, NeverGainsEnergyAndStaysInTheCone) {
   std::mt19937 random(1);
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < 600; ++trial) {
     const Scene s = random_scene(1 + trial % 6, 2, random);
     const FrictionOutcome out = resolve(s);
     VecX v = s.v;

@@ -5,7 +5,8 @@
 // mu lambda, changes the rates of all by W = [N; T] M^-1 [N; T]^T.
 //
 //   collide  while some contact approaches, let one collide: compression and expansion, friction
-//            by maximal dissipation in each (coulomb.hpp). With mu = 0 the plain cascade.
+//            by maximal dissipation in each (coulomb.hpp). With mu = 0 the plain cascade. If
+//            all e = 0 they settle.
 //   settle   all at once, e = 0:  0 <= lambda_i  _|_  u_n,i >= 0,  and beta_i dissipates most
 //
 // Restitution is Poisson's: it is the impulse of the expansion that is e times that of the
@@ -22,13 +23,13 @@ namespace saltus {
 
 /// W by contacts: for each contact the rates that an impulse there changes, without zero blocks.
 struct ContactBlocks {
-  std::vector<int> start;          ///< (m + 1) where a contact begins
-  std::vector<int> contact;        ///< of each entry: who feels it
-  std::vector<Mat3> block;         ///< likewise: its rates by a unit impulse
-  std::vector<Mat3> own;           ///< (m) W_ii, symmetric
-  std::vector<double> friction;    ///< (m) mu >= 0
-  std::vector<double> restitution; ///< (m) e in [0, 1]
-  std::vector<double> rest;        ///< (m) epsilon_u >= 0
+  std::vector<int> start;           ///< (m + 1) where a contact begins
+  std::vector<int> contact;         ///< of each entry: who feels it
+  std::vector<Mat3> block;          ///< likewise: its rates by a unit impulse
+  std::vector<Mat3> own;            ///< (m) W_ii, symmetric
+  std::vector<double> friction;     ///< (m) mu >= 0
+  std::vector<double> restitution;  ///< (m) e in [0, 1]
+  std::vector<double> rest;         ///< (m) epsilon_u >= 0
 
   int size() const { return static_cast<int>(own.size()); }
 };
@@ -42,7 +43,8 @@ struct FrictionImpulse {
 /// @param u (m) rates, changed; @param impulses appended, in order
 /// @return false when max_impulses did not suffice
 SALTUS_EXPORT bool collide(const ContactBlocks& W, const CascadeOptions& options,
-                           std::vector<Vec3>& u, std::vector<FrictionImpulse>& impulses);
+                           std::vector<Vec3>& u, std::vector<Vec3>& scratch,
+                           std::vector<FrictionImpulse>& impulses);
 
 /// Block Gauss-Seidel (NSGS: Jourdan, Alart & Jean 1998) until the impulses change by rounding.
 /// @param u (m) rates with `p` in place, changed; @param p (m) guess in, solution out

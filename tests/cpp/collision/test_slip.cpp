@@ -1,0 +1,85 @@
+// Tangents, and the rows of the relative velocity against central differences.
+#include "saltus/collision/slip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "collision/random_scene.hpp"
+
+namespace saltus {
+namespace {
+
+using testing_scene::Random;
+using testing_scene::random_scene;
+using testing_scene::Scene;
+
+TEST(Slip, TangentsAreRightHandedAndOrthonormal) {
+  Random random(1);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 n = random.direction();
+    const Tangents t = tangents(n, tangent_axis(n));
+    Mat3 R;
+    R << t.t0, t.t1, n;
+    EXPECT_LE((R.transpose() * R - Mat3::Identity()).norm(), 1e-15);
+    EXPECT_GT(R.determinant(), 0);
+  }
+}
+
+TEST(Slip, OneTangentOfAPlanarSceneLiesInItsPlaneExactly) {
+  for (const double angle : {0.0, 0.3, 1.0, 2.0, 4.0}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    EXPECT_EQ(tangents({c, 0, s}, tangent_axis({c, 0, s})).t1, Vec3::UnitY());
+    const Tangents t = tangents({c, s, 0}, tangent_axis({c, s, 0}));
+    EXPECT_TRUE(t.t0.z() == 0 || t.t1.z() == 0);
+    EXPECT_TRUE(std::abs(t.t0.z()) == 1 || std::abs(t.t1.z()) == 1);
+  }
+}
+
+/// d.(v_a - v_b) of the material points that are at P at q: where they are at q + dq.
+double moved(const Scene& scene, const Kinematics& at_q, const Vec3& P, const Vec3& d,
+             const VecX& q) {
+  Kinematics kin(scene.tree);
+  set_configuration(scene.tree, q, kin);
+  const auto where = [&](int joint) -> Vec3 {
+    if (joint < 0) return P;
+    return kin.X_WJ(scene.tree, joint) * at_q.X_WJ(scene.tree, joint).inverse() * P;
+  };
+  return d.dot(where(scene.pair.on_a.joint) - where(scene.pair.on_b.joint));
+}
+
+TEST(Slip, RowsAreTheVelocityOfMaterialPoints) {
+  Random random(2);
+  for (int k = 0; k < 100; ++k) {
+    const Scene scene = random_scene(k % 2 ? "box" : "sphere", {}, random);
+    Kinematics kin(scene.tree);
+    set_configuration(scene.tree, scene.q, kin);
+    const Gap g = pair_gap(scene.tree, kin, scene.pair);
+    const Vec3 P = contact_point(g), d = tangents(g.n_W, tangent_axis(g.n_W)).t0;
+    VecX row = VecX::Zero(scene.q.size());
+    add_motion_gradient(scene.tree, kin, scene.pair, P, d, row);
+    constexpr double step = 1e-5;
+    for (Eigen::Index c = 0; c < row.size(); ++c) {
+      VecX ahead = scene.q, behind = scene.q;
+      ahead[c] += step;
+      behind[c] -= step;
+      const double twin = (moved(scene, kin, P, d, ahead) - moved(scene, kin, P, d, behind));
+      EXPECT_NEAR(row[c], twin / (2 * step), 1e-8) << k << " " << c;
+    }
+  }
+}
+
+TEST(Slip, AlongTheNormalTheRowIsTheGradientOfTheGap) {
+  Random random(3);
+  for (int k = 0; k < 50; ++k) {
+    const Scene scene = random_scene("capsule", {}, random);
+    Kinematics kin(scene.tree);
+    set_configuration(scene.tree, scene.q, kin);
+    const Gap g = pair_gap(scene.tree, kin, scene.pair);
+    VecX phi_q = VecX::Zero(scene.q.size()), row = phi_q;
+    add_gap_gradient(scene.tree, kin, scene.pair, g, phi_q);
+    add_motion_gradient(scene.tree, kin, scene.pair, contact_point(g), g.n_W, row);
+    EXPECT_LE((phi_q - row).cwiseAbs().maxCoeff(), 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace saltus
