@@ -175,6 +175,58 @@ FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options,
                                                       : FlightOutcome::not_converged;
 }
 
+/// Holds and grips what was held, and solves the arc over the whole time left.
+FlightOutcome begin(const ModelData& model, const StepOptions& options, double left, Node& node,
+                    Flight& f) {
+  fit(node.pool.size(), f);
+  std::fill(f.passed.begin(), f.passed.end(), 0);
+  std::fill(f.flips.begin(), f.flips.end(), 0);
+  f.active = 0;
+  if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
+  if (node.friction.any && !start_grips(left, node, f)) return FlightOutcome::too_many_contacts;
+  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived
+                                                        : FlightOutcome::not_converged;
+}
+
+/// Complementarity of what is held and of what sticks; `settled` is false where the arc has to be
+/// solved again.
+FlightOutcome update_contacts(const ModelData& model, const StepOptions& options, Node& node,
+                              Flight& f, bool& settled) {
+  const Holds holds = update_holds(model, node, f);
+  if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
+  const Grips grips = update_grips(model, options, holds == Holds::changed, node, f);
+  if (grips == Grips::too_many) return FlightOutcome::too_many_contacts;
+  if (grips == Grips::not_settled) return FlightOutcome::friction_not_settled;
+  settled = holds == Holds::unchanged && grips != Grips::changed;
+  return FlightOutcome::arrived;
+}
+
+/// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
+ImpactTime shorten(const ModelData& model, const StepOptions& options, const FirstHit& hit,
+                   double tau, Node& node, Flight& f) {
+  const bool hop = is_hop(node, hit.pair);
+  f.start_v = f.arc.v;
+  f.closing = hit.pair;
+  const ImpactTime found = find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f);
+  if (found == ImpactTime::found) {
+    // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far from
+    // the origin the chord tells gaps apart no better than their rounding).
+    if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
+    return found;
+  }
+  if (found == ImpactTime::missed) f.passed[hit.pair] = 1;
+  if (found == ImpactTime::at_rest) {
+    node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
+  }
+  if (found == ImpactTime::settles) {
+    f.settlings.push_back({node.t + f.settling_time, hit.pair});
+    come_to_rest(model, node.contact_of[hit.pair], node);
+    node.held[hit.pair] = 0;  // until this arc presses it, or it would fall through
+  }
+  f.arc.v = f.start_v;
+  return found;
+}
+
 }  // namespace
 
 Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
@@ -195,74 +247,39 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& f, bool& fallback) {
-  fit(node.pool.size(), f);
-  std::fill(f.passed.begin(), f.passed.end(), 0);
-  std::fill(f.flips.begin(), f.flips.end(), 0);
-  f.active = 0;
-  if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
-  if (node.friction.any && !start_grips(left, node, f)) return FlightOutcome::too_many_contacts;
-  if (!solve_first_arc(model, options, left, node, f)) return FlightOutcome::not_converged;
+  FlightOutcome outcome = begin(model, options, left, node, f);
+  f.has_rate = false;
   double tau = left;
   bool solved = true;
-  f.has_rate = false;
   // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
   const int most_turns = (node.friction.any ? 100 : 10) + 4 * node.pool.size();
-  for (int turn = 0; turn < most_turns; ++turn) {
-    if (!solved && !solve_flight_arc(model, options, tau, node, f)) {
-      if (!drop_launch(node, f)) return FlightOutcome::not_converged;
-      fallback = true;
-      tau = left;
-      continue;
+  for (int turn = 0; turn < most_turns && outcome == FlightOutcome::arrived; ++turn) {
+    ImpactTime found = ImpactTime::not_converged;
+    if (solved || solve_flight_arc(model, options, tau, node, f)) {
+      if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
+      bool settled = true;
+      outcome = update_contacts(model, options, node, f, settled);
+      solved = false;
+      if (!settled || outcome != FlightOutcome::arrived) continue;
+      const FirstHit hit = first_hit(model, node, f);
+      if (hit.pair < 0) {
+        remember_grips(node, f);
+        return FlightOutcome::arrived;
+      }
+      found = shorten(model, options, hit, tau, node, f);
     }
-    solved = false;
-    if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
-    const Holds holds = update_holds(model, node, f);
-    if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
-    const Grips grips = update_grips(model, options, holds == Holds::changed, node, f);
-    if (grips == Grips::too_many) return FlightOutcome::too_many_contacts;
-    if (grips == Grips::not_settled) return FlightOutcome::friction_not_settled;
-    if (holds == Holds::changed || grips == Grips::changed) continue;
-    const FirstHit hit = first_hit(model, node, f);
-    if (hit.pair < 0) {
-      remember_grips(node, f);
-      return FlightOutcome::arrived;
+    if (found == ImpactTime::not_located) return FlightOutcome::impact_not_located;
+    if (found == ImpactTime::settles && impact_pending(node)) {
+      return arrive_at_once(model, options, node, f);
     }
-    const bool hop = is_hop(node, hit.pair);
-    f.start_v = f.arc.v;
-    f.closing = hit.pair;
-    switch (find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f)) {
-      case ImpactTime::found:
-        // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far
-        // from the origin the chord tells gaps apart no better than their rounding).
-        if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
-        tau = f.arc.tau;
-        solved = true;
-        break;
-      case ImpactTime::missed:
-        f.passed[hit.pair] = 1;
-        f.arc.v = f.start_v;
-        break;
-      case ImpactTime::at_rest:
-        node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
-        f.arc.v = f.start_v;
-        break;
-      case ImpactTime::settles:
-        f.settlings.push_back({node.t + f.settling_time, hit.pair});
-        come_to_rest(model, node.contact_of[hit.pair], node);
-        node.held[hit.pair] = 0;  // until this arc presses it, or it would fall through
-        f.arc.v = f.start_v;
-        if (impact_pending(node)) return arrive_at_once(model, options, node, f);
-        break;
-      case ImpactTime::not_converged:
-        if (!drop_launch(node, f)) return FlightOutcome::not_converged;
-        fallback = true;
-        tau = left;
-        break;
-      case ImpactTime::not_located:
-        return FlightOutcome::impact_not_located;
-    }
+    solved = found == ImpactTime::found;
+    if (solved) tau = f.arc.tau;
+    if (found != ImpactTime::not_converged) continue;
+    if (!drop_launch(node, f)) return FlightOutcome::not_converged;
+    fallback = true;
+    tau = left;
   }
-  return FlightOutcome::no_progress;
+  return outcome == FlightOutcome::arrived ? FlightOutcome::no_progress : outcome;
 }
 
 }  // namespace saltus
