@@ -101,7 +101,8 @@ double lawlessness(const ModelData& model, const Node& node, double size, const 
   const Vec2 slide(f.slip.row[0].t0.dot(f.arc.v), f.slip.row[0].t1.dot(f.arc.v));
   const double speed = slide.norm();
   // of the speeds that there are: what hardly slides has hardly a direction
-  return strict * (slide - speed * c.grip.slide).norm() / contact.epsilon_u;
+  const double least = std::max(contact.epsilon_u, 1e-14);
+  return strict * (slide - speed * c.grip.slide).norm() / least;
 }
 
 /// The most lawless hold, and by how much.

@@ -45,7 +45,7 @@ struct StepReport {
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
   std::vector<Settling> settlings;
-  std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
+  std::vector<std::string> certificates;    ///< (impacts), "" of single contacts; if asked for
   std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
 };
 
