@@ -12,6 +12,7 @@ namespace {
 /// Every round meets the law better by a factor of order h, once who sticks is known.
 constexpr int most_rounds = 30;
 constexpr int strict_rounds = 12;
+constexpr double strict = 1e-10, loose = 1e-7;  ///< lawlessness that is none
 
 using Kind = ArcConstraint::Kind;
 
@@ -86,7 +87,7 @@ bool set_forces(const Node& node, int i, const Vec3& p, const std::array<bool, 2
   return true;
 }
 
-/// How far a hold is from Coulomb's law: part of its force, or of its direction. No more than 1.
+/// How far a hold is from Coulomb's law: by a part of the forces, or of the speeds that there are.
 double lawlessness(const ModelData& model, const Node& node, double size, const ArcConstraint& c,
                    Flight& f) {
   const Contact& contact = contact_of(node, c);
@@ -99,8 +100,9 @@ double lawlessness(const ModelData& model, const Node& node, double size, const 
   add_slide_rows(model, c, f.scratch, f.slip.row[0].t0, f.slip.row[0].t1);
   const Vec2 slide(f.slip.row[0].t0.dot(f.arc.v), f.slip.row[0].t1.dot(f.arc.v));
   const double speed = slide.norm();
-  if (speed <= contact.epsilon_u) return 0;
-  return std::min(1.0, (slide / speed - c.grip.slide).norm());
+  // of the speeds that there are: what hardly slides has hardly a direction
+  const double least = std::max(contact.epsilon_u, 1e-14);
+  return strict * (slide - speed * c.grip.slide).norm() / least;
 }
 
 /// The most lawless hold, and by how much.
@@ -217,8 +219,7 @@ Grips update_grips(const ModelData& model, const StepOptions& options, bool chan
     return Grips::unchanged;
   }
   if (!changed) {
-    const double tolerance = f.slip.rounds < strict_rounds ? 1e-10 : 1e-7;
-    if (worst(model, node, f) <= tolerance) {
+    if (worst(model, node, f) <= (f.slip.rounds < strict_rounds ? strict : loose)) {
       f.slip.rounds = 0;
       return Grips::unchanged;
     }

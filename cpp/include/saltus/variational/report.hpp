@@ -44,9 +44,9 @@ struct StepReport {
   double residual = 0;  ///< [largest momentum] of the worst arc
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
-  std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
   std::vector<Settling> settlings;
-  std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
+  std::vector<std::string> certificates;    ///< (impacts), "" of single contacts; if asked for
+  std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
 };
 
 }  // namespace saltus
