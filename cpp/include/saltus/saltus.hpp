@@ -7,7 +7,7 @@
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 #include "saltus/variational/cascade.hpp"
-#include "saltus/variational/overlap.hpp"
 #include "saltus/variational/certificate.hpp"
 #include "saltus/variational/outcomes.hpp"
+#include "saltus/variational/overlap.hpp"
 #include "saltus/variational/stepper.hpp"
