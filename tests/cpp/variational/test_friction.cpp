@@ -1,7 +1,6 @@
 // Friction of one contact: what a ball that slides, rolls, spins and bounces is known to do.
 #include <gtest/gtest.h>
 
-#include "count_allocations.hpp"
 #include "friction_scenes.hpp"
 
 namespace saltus {
@@ -128,17 +127,6 @@ TEST(Friction, WithoutFrictionIsAsBeforeToTheLastBit) {
     EXPECT_TRUE(a == b);
   }
   EXPECT_FALSE(a == c);
-}
-
-TEST(Friction, AStepAfterTheFirstAllocatesNothing) {
-  const Model model = rolling_ball(0.1, {0.6, 0.3});
-  Stepper stepper(model, {.h = 0.01});
-  State state = model.state({{"z", 0.3}}, {{"x", 1}, {"turn", -40}});
-  stepper.step(state);
-  const long before = test::allocations;
-  for (int k = 0; k < 500; ++k) stepper.step(state);  // bounces, slides, rolls
-  EXPECT_EQ(test::allocations, before);
-  EXPECT_EQ(stepper.report().sustained, 1);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "count_allocations.hpp"
-#include "scenes.hpp"
+#include "variational/friction_scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -44,6 +44,27 @@ TEST(Stepper, ABallThatBouncesAndComesToRestAllocatesNothing) {
   const auto [allocated, impacts] = count(model, model.state({{"height", 1.1}}), {.h = 0.005});
   EXPECT_EQ(allocated, 0);
   EXPECT_GT(impacts, 2);
+}
+
+TEST(Stepper, ABallThatBouncesSlidesAndRollsAllocatesNothing) {
+  const Model model = scenes::rolling_ball(0.1, {0.6, 0.3});
+  Stepper stepper(model, {.h = 0.01});
+  State state = model.state({{"z", 0.3}}, {{"x", 1}, {"turn", -40}});
+  stepper.step(state);
+  const long before = allocations;
+  for (int k = 0; k < 500; ++k) stepper.step(state);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(stepper.report().sustained, 1);
+}
+
+TEST(Stepper, ABoxThatSlidesToRestAllocatesNothing) {
+  const Model model = scenes::boxes_on_slope(1, Vec3(0.2, 0.15, 0.1), 0.1, {0, 0.5});
+  Stepper stepper(model, {.h = 0.01});
+  State state = model.state({}, {{model->coordinates[0].name, 1}});
+  for (int k = 0; k < 3; ++k) stepper.step(state);
+  const long before = allocations;
+  for (int k = 0; k < 300; ++k) stepper.step(state);
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace
