@@ -46,7 +46,8 @@ TEST(HardCases, ABallThatGrazesAFloor) {
     Stepper stepper(model, {.h = 0.01});
     for (int k = 0; k < 20; ++k) stepper.step(state);
     EXPECT_NEAR(state.q[0], 0.2, 1e-12) << digits;
-    EXPECT_GE(state.q[1], 0.1 - 1.1e-11) << digits;  // rest begins where it touches, 1e-11 deep
+    // rest begins where it touches, 1e-11 deep, and may sink by as much before it is held
+    EXPECT_GE(state.q[1], 0.1 - 2.1e-11) << digits;
     EXPECT_NEAR(energy(model, state), 0.5 * (1 + speed * speed), 1e-12) << digits;
     if (digits <= 9) {  // above the rest threshold, 1e-10 of the speeds
       EXPECT_NEAR(state.p[1], speed, 1e-12) << digits;
