@@ -53,7 +53,9 @@ def test_the_bits_do_not_depend_on_the_threads(threads):
         assert a.impulses.tobytes() == b.impulses.tobytes()
 
 
-@pytest.mark.parametrize("law", list(saltus.ImpactLaw))
+@pytest.mark.parametrize(
+    "law", [law for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom]
+)
 def test_each_run_is_what_simulate_gives(law):
     batch = fan(law=law, record_every=4, threads=2)
     for i, run in enumerate(batch):
@@ -145,7 +147,7 @@ def test_failures_stay_with_their_runs():
 def test_a_step_that_cannot_be_made_keeps_the_rows_before():
     with pytest.warns(RuntimeWarning, match="1 of 2 runs failed"):
         batch = fan(q={"swing_0": [0.0, 0.3]}, max_impulses=1)
-    assert "jammed" in batch.failures[1]
+    assert "max_impulses" in batch.failures[1]
     assert batch.rows[1] == 51  # the impact is at 0.5046 s
     assert not np.isnan(batch.q[1, :51]).any()
     assert np.isnan(batch.q[1, 51:]).all()

@@ -63,7 +63,7 @@ PREDICTED = {
     "pairs": ["27 pairs 0.4 m apart, to 1e-14 m"],
     "quadruped": ["contacts held: 8"],
     "which_outcome": [
-        "order_dependent, at most 2 impulses> cos = -0.2500",
+        "order_dependent, at most 2 impulses cos = -0.2500",
         "one after the other: cue [-0.25, 0.433013]",
         "one after the other: cue [-0.25, -0.433013]",
         "both at once: cue -0.400000, targets [1.2, -0.69282]",

@@ -257,7 +257,9 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
   arc.iterations = 0;
   arc.residual = residual(model, a, arc.v, s);
   bool converged = is_converged(arc.residual, infinity);
-  while (!converged && arc.iterations < options.max_iterations) {
+  // without the second partials of kappa Newton's method is linear, and slow where h is large
+  const int most = (a.whole > 0 ? 4 : 1) * options.max_iterations;
+  while (!converged && arc.iterations < most) {
     const double before = arc.residual;
     arc.residual = newton_step(model, a, before, arc, s);
     ++arc.iterations;
