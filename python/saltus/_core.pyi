@@ -58,7 +58,6 @@ __all__: list[str] = [
     "TreeSolver",
     "classify_impact",
     "compensated",
-    "custom",
     "discrete_energy",
     "energies",
     "gap",
@@ -2367,7 +2366,6 @@ def states(
 
 __version__: str = "0.1.0"
 compensated: ImpactLaw
-custom: ImpactLaw
 discrete_energy: ImpactLaw
 nodal_energy: ImpactLaw
 shadow_energy: ImpactLaw

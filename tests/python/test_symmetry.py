@@ -58,7 +58,8 @@ def test_bernoullis_problem():
     assert run.certificates == ("order_dependent",)  # the two targets touch each other too
     assert "order_dependent" in str(run.impact(0))
     one_by_one = saltus.simulate(model, v={"x_0": 2.0}, duration=2.0)
-    np.testing.assert_allclose(one_by_one.v[-1, :2], [-0.25, 0.4330127018922193], atol=1e-9)
+    # one of the two mirror images
+    np.testing.assert_allclose(np.abs(one_by_one.v[-1, :2]), [0.25, 0.4330127018922193], atol=1e-9)
 
 
 def test_a_ball_into_a_corner_comes_back_the_way_it_came():
