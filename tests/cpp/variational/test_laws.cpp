@@ -53,7 +53,7 @@ TEST(Laws, LongRunsKeepTheEnergy) {
   EXPECT_LT(nodal.total, 2e-6);
   EXPECT_LT(shadow.total, paper.total / 100);
   EXPECT_LT(compensated.total, paper.total / 500);
-  EXPECT_LT(shadow.shadow, 1e-9);  // measured 2.6e-10: what smooth steps leave, O(h^4)
+  EXPECT_LT(shadow.shadow, 1e-9);       // measured 2.6e-10: what smooth steps leave, O(h^4)
   EXPECT_LT(compensated.shadow, 1e-6);  // measured 4e-7: jumps of 3e-9, O(h^4), that add up
 }
 
