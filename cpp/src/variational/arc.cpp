@@ -19,7 +19,7 @@ bool wants_energy(const ArcProblem& a) {
 /// Adds c kappa to L. @return false where M is singular
 bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
   Compensation& k = *s.compensation;
-  second_pass(model.packed, s.w);
+  set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, 0, k.M)) return false;
   free_motion(model.tree, model.packed, s.w, k.M, k.free);
   shadow_gradient(model.tree, model.packed, s.w, k.free.a, k.shadow);
@@ -40,6 +40,7 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   place(packed, s.w);
   move(packed, s.w);
   first_pass(packed, s.w);
+  s.has_second = false;
   scale_pass(packed, a.tau, s.w);
   gather(tree, packed, s.w.first, 0, s.L_v);
   gather(tree, packed, s.w.first, 1, s.L_q);
@@ -178,7 +179,7 @@ double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcS
 double newton_step(const ModelData& model, const ArcProblem& a, double before, Arc& arc,
                    ArcScratch& s) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  second_pass(model.packed, s.w);
+  set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, a.tau, s.J)) return infinity;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
@@ -257,9 +258,7 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
   arc.iterations = 0;
   arc.residual = residual(model, a, arc.v, s);
   bool converged = is_converged(arc.residual, infinity);
-  // without the second partials of kappa Newton's method is linear, and slow where h is large
-  const int most = (a.whole > 0 ? 4 : 1) * options.max_iterations;
-  while (!converged && arc.iterations < most) {
+  while (!converged && arc.iterations < options.max_iterations) {
     const double before = arc.residual;
     arc.residual = newton_step(model, a, before, arc, s);
     ++arc.iterations;
@@ -292,7 +291,7 @@ void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate)
 
 void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
   rate.setZero();
-  second_pass(model.packed, s.w);
+  set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
   set_arc_rate(model, arc.tau, s, rate);
 }

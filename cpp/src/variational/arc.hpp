@@ -91,6 +91,7 @@ struct ArcScratch {
   ArcScratch(const ModelData& model, ImpactLaw law);
   std::optional<Compensation> compensation;
   Packed w;
+  bool has_second = false;  ///< second_pass sums in place: once an evaluation
   PackedMatrix J;
   PackedProducts products;
   Packed w_end;        ///< written by place_end
@@ -112,6 +113,12 @@ Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
 
 /// The same in the middle of the arc that was evaluated last.
 Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s);
+
+/// Second partials at the last evaluation, into s.w.
+inline void set_second_partials(const ModelData& model, ArcScratch& s) {
+  if (!s.has_second) second_pass(model.packed, s.w);
+  s.has_second = true;
+}
 
 /// What solve_arc is made of, for closing_arc.cpp and flight_friction.cpp.
 ///

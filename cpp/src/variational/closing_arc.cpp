@@ -20,7 +20,7 @@ double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v, co
 /// One Newton step of (v, tau). @return false where it leads out of (0, longest].
 bool improve(const ModelData& model, const ArcProblem& a, double phi, const ClosingGap& gap,
              Arc& arc, ArcScratch& s) {
-  second_pass(model.packed, s.w);
+  set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, a.tau, s.J)) return false;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);

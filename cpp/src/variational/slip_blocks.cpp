@@ -118,7 +118,7 @@ bool set_slip_blocks(const ModelData& model, const StepOptions& options, Node& n
   FrictionScratch& x = f.slip.friction;
   const ArcProblem problem = arc_problem(options, f.arc.tau, node, f);
   if (!std::isfinite(momentum_residual(model, problem, f.arc.v, s))) return false;
-  second_pass(model.packed, s.w);
+  set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, f.arc.tau, s.J)) return false;
   s.dv = s.r;  // not 0 where a hold was let go since the arc was solved
   solve(model.tree, model.packed, s.J, s.dv);
