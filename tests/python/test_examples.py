@@ -67,7 +67,7 @@ PREDICTED = {
         "one after the other: cue [-0.25, 0.433013]",
         "one after the other: cue [-0.25, -0.433013]",
         "both at once: cue -0.400000, targets [1.2, -0.69282]",
-        "five in a line: <ImpactCertificate: unique, A4, at most 10 impulses>",
+        "five in a line: unique, A4, at most 10 impulses",
     ],
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }
