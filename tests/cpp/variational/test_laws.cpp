@@ -84,7 +84,7 @@ TEST(Laws, CompensatedArcsOfADoublePendulumConvergeFast) {
   const State start = model.state({}, {{"turn_0", 1.5}, {"turn_1", -1}});
   const Trajectory run = simulate(model, start, 20, {.h = 0.01, .law = ImpactLaw::compensated});
   EXPECT_GT(run.impacts.size(), 50u);
-  EXPECT_LT(static_cast<double>(run.iterations), 6.0 * run.t.size());
+  EXPECT_LT(run.iterations, 6 * run.t.size());
   EXPECT_LT((run.shadow.array() - run.shadow[0]).abs().maxCoeff(), 1e-4);
 }
 
