@@ -145,7 +145,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     arrays: dict[str, Any] = {name: file[name][()] for name in ARRAYS}
     arrays["impulses"] = file["impulses"][()].astype(IMPULSE)
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
-    settlings = file["settlings"][()] if "settlings" in file else []  # files before 0.2 have none
+    settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
     for array in arrays.values():
         array.flags.writeable = False

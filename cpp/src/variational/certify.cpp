@@ -1,13 +1,16 @@
 #include "variational/certify.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "saltus/variational/certificate.hpp"
+#include "variational/contact_problem.hpp"
 
 namespace saltus {
 namespace {
 
-/// The contacts that impulses can have reached: those connected by entries of G with one.
+/// The contacts that impulses can have reached, ascending: those connected by entries of G with
+/// one.
 std::vector<int> reached(const Node& node) {
   const ContactMatrix& G = node.G;
   std::vector<char> seen(static_cast<std::size_t>(G.size()), 0);
@@ -25,6 +28,7 @@ std::vector<int> reached(const Node& node) {
       if (G.value[j] * G.value[j] > 1e-24 * scale) add(G.column[j]);
     }
   }
+  std::sort(list.begin(), list.end());
   return list;
 }
 
@@ -35,17 +39,9 @@ std::string certify(const Node& node) {
   const std::vector<int> list = reached(node);
   const auto m = static_cast<Eigen::Index>(list.size());
   if (m < 2) return "";
-  std::vector<Eigen::Index> place(static_cast<std::size_t>(node.touching), -1);
-  for (Eigen::Index i = 0; i < m; ++i) place[list[i]] = i;
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(m, m);
+  const Eigen::MatrixXd G = dense_part(node.G, list);
   VecX restitution(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    restitution[i] = node.restitution[list[i]];
-    for (int k = node.G.start[list[i]]; k < node.G.start[list[i] + 1]; ++k) {
-      const Eigen::Index j = place[node.G.column[k]];
-      if (j >= 0) G(i, j) = node.G.value[k];
-    }
-  }
+  for (Eigen::Index i = 0; i < m; ++i) restitution[i] = node.restitution[list[i]];
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(G);
   const VecX root = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   const MatX N = eigen.eigenvectors() * root.asDiagonal() * eigen.eigenvectors().transpose();

@@ -1,6 +1,7 @@
 #include "variational/contact_problem.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -65,6 +66,19 @@ ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref
   out.u = N * v;
   out.rest = relative_rest * out.speed * out.G.diagonal().array().sqrt();
   return out;
+}
+
+MatX dense_part(const ContactMatrix& G, const std::vector<int>& part) {
+  const auto m = static_cast<Eigen::Index>(part.size());
+  MatX dense = MatX::Zero(m, m);
+  for (Eigen::Index row = 0; row < m; ++row) {
+    const int i = part[static_cast<std::size_t>(row)];
+    for (int k = G.start[i]; k < G.start[i + 1]; ++k) {
+      const auto at = std::lower_bound(part.begin(), part.end(), G.column[k]);
+      if (at != part.end() && *at == G.column[k]) dense(row, at - part.begin()) = G.value[k];
+    }
+  }
+  return dense;
 }
 
 }  // namespace saltus

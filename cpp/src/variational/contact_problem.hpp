@@ -3,7 +3,7 @@
 // With rows n_i = phi_q: columns = M^-1 N^T, G = N M^-1 N^T, u = N v (theory, section 6).
 #pragma once
 
-#include "saltus/spatial/spatial.hpp"
+#include "saltus/variational/cascade.hpp"
 
 namespace saltus {
 
@@ -21,5 +21,9 @@ struct ContactProblem {
 ///         definite, a row of N that is zero, e outside [0, 1].
 ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
                                const VecRef& v, const VecRef& restitution);
+
+/// G of some contacts, dense.
+/// @param part indices, ascending
+MatX dense_part(const ContactMatrix& G, const std::vector<int>& part);
 
 }  // namespace saltus

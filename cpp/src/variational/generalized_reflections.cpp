@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/contact_problem.hpp"
 #include "variational/contact_qp.hpp"
 
 namespace saltus {
@@ -31,18 +32,6 @@ std::vector<Part> parts_of(const ContactMatrix& G, std::vector<char> in) {
   return parts;
 }
 
-VecX multipliers(const ContactMatrix& G, const Part& part, const VecX& u) {
-  MatX dense = MatX::Zero(u.size(), u.size());
-  for (std::size_t row = 0; row < part.size(); ++row) {
-    for (int k = G.start[part[row]]; k < G.start[part[row] + 1]; ++k) {
-      const auto at = std::lower_bound(part.begin(), part.end(), G.column[k]);
-      if (at == part.end() || *at != G.column[k]) continue;
-      dense(static_cast<Eigen::Index>(row), at - part.begin()) = G.value[k];
-    }
-  }
-  return contact_multipliers(dense, u);
-}
-
 /// The e of a part, by the energy that each contact takes up.
 double shared_restitution(const VecX& e, const VecX& lambda, const VecX& u) {
   if ((e.array() == e[0]).all()) return e[0];
@@ -53,7 +42,7 @@ double shared_restitution(const VecX& e, const VecX& lambda, const VecX& u) {
 /// One reflection; u of the part that it belongs to and of all others that feel it.
 void reflect(const ContactMatrix& G, const Part& part, const VecRef& restitution,
              Eigen::Ref<VecX> u, std::vector<Impulse>& impulses) {
-  const VecX before = u(part), lambda = multipliers(G, part, before);
+  const VecX before = u(part), lambda = contact_multipliers(dense_part(G, part), before);
   const double e = shared_restitution(restitution(part), lambda, before);
   for (std::size_t row = 0; row < part.size(); ++row) {
     const int i = part[row];

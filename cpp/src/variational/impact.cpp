@@ -1,8 +1,10 @@
 // What an impact does to the momenta at a node (theory, sections 5 and 6).
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "variational/certify.hpp"
+#include "variational/contact_problem.hpp"
 #include "variational/contact_qp.hpp"
 #include "variational/custom_law.hpp"
 #include "variational/node.hpp"
@@ -10,8 +12,7 @@
 namespace saltus {
 namespace {
 
-/// Kinetic energy of the approach that an impulse turns round: u^2 / 2G, from lambda = -(1 + e)
-/// u/G.
+/// Kinetic energy u^2 / 2G of the approach that an impulse turns round; lambda = -(1 + e) u / G.
 double normal_energy(const Node& node, const Impulse& impulse) {
   const double u_G = impulse.lambda / (1 + node.restitution[impulse.pair]);
   return u_G * u_G * node.G.diagonal[impulse.pair] / 2;
@@ -92,14 +93,9 @@ bool resolve_with_friction(const ModelData& model, const StepOptions& options, N
 }  // namespace
 
 bool can_open(const Node& node) {
-  const ContactMatrix& sparse = node.G;
-  MatX G = MatX::Zero(sparse.size(), sparse.size());
-  for (int i = 0; i < sparse.size(); ++i) {
-    for (int k = sparse.start[i]; k < sparse.start[i + 1]; ++k) {
-      G(i, sparse.column[k]) = sparse.value[k];
-    }
-  }
-  return cone_interior(G) > 0;
+  std::vector<int> all(static_cast<std::size_t>(node.G.size()));
+  std::iota(all.begin(), all.end(), 0);
+  return cone_interior(dense_part(node.G, all)) > 0;
 }
 
 bool resolve_node_impact(const ModelData& model, const StepOptions& options, double energy,

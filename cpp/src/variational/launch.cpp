@@ -8,6 +8,8 @@
 namespace saltus {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 bool match_arc(const ModelData& model, const StepOptions& options, double left, const Node& node,
                Flight& f) {
   const double energy = arc_energy(model, arc_problem(options, left, node, f), f.arc, f.scratch);
@@ -22,11 +24,10 @@ bool match_arc(const ModelData& model, const StepOptions& options, double left, 
   return false;
 }
 
-/// How far the step's end is from the energy to match; infinity where there is no number.
-double shadow_mismatch(const ModelData& model, const StepOptions& options, double left, Node& node,
+/// How far the end of the arc just solved, the step's, is from the energy to match; infinity where
+/// there is no number.
+double shadow_mismatch(const ModelData& model, const StepOptions& options, const Node& node,
                        Flight& f) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!solve_flight_arc(model, options, left, node, f)) return infinity;
   if (!measure(model, f.arc.q_end, f.arc.p_end, options.h, *f.meter)) return infinity;
   return f.meter->energy.shadow - node.launch.energy;
 }
@@ -45,23 +46,22 @@ void kick(const ModelData& model, double delta, Node& node, Flight& f) {
 bool match_shadow(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& f) {
   constexpr int most_iterations = 8;
-  const double start = shadow_mismatch(model, options, left, node, f);
+  const double start = shadow_mismatch(model, options, node, f);
   double slope = node.launch.n.dot(node.v), mismatch = start, total = 0;
   if (f.active > 0 || !(node.launch.normal_energy > std::abs(start)) || !(slope > 0)) return false;
   for (int k = 0; k < most_iterations; ++k) {
     const double delta = -mismatch / slope;
     kick(model, delta, node, f);
     total += delta;
-    const double after = shadow_mismatch(model, options, left, node, f);
-    if (!std::isfinite(after)) break;
+    const bool solved = solve_flight_arc(model, options, left, node, f);
+    const double after = solved ? shadow_mismatch(model, options, node, f) : infinity;
     // 1e-15: the rounding of the energies that the mismatch is a difference of
     const double size = f.meter->energy.kinetic + std::abs(f.meter->energy.potential);
-    if (std::abs(after) <= 1e-15 * size || std::abs(after) >= std::abs(mismatch) / 2) {
-      mismatch = after;
-      break;
-    }
+    const bool done =
+        std::abs(after) <= 1e-15 * size || !(std::abs(after) < std::abs(mismatch) / 2);
     slope = (after - mismatch) / delta;
     mismatch = after;
+    if (done) break;
   }
   if (std::abs(mismatch) <= 1e-3 * std::abs(start)) return true;
   kick(model, -total, node, f);

@@ -42,9 +42,11 @@ void check_options(const StepOptions& o) {
     fail("simultaneous", o.simultaneous, "in [0, 1)");
   }
   if ((o.law == ImpactLaw::custom) == static_cast<bool>(o.custom)) return;
-  throw ModelError(o.custom ? "a custom law is given, but law = " + law_name(o.law) +
-                                  "; set law = ImpactLaw::custom"
-                            : "law = custom without a function; set StepOptions::custom");
+  throw ModelError(o.custom
+                       ? "a custom law is given, but law = " + law_name(o.law) +
+                             "; set law = ImpactLaw::custom"
+                       : "law = custom without a function: give the function itself as the law "
+                         "(in C++ as StepOptions::custom)");
 }
 
 }  // namespace saltus

@@ -171,7 +171,9 @@ void Stepper::Impl::arrive(double t) {
 double Stepper::Impl::conserved_energy() {
   if (options.law == ImpactLaw::shadow_energy) {
     if (report.impacts.empty()) {  // what is left of it after the impacts of this step
-      measure(*model, last.q, last.p, options.h, *flight.meter);
+      if (!measure(*model, last.q, last.p, options.h, *flight.meter)) {
+        fail(FlightOutcome::not_converged);
+      }
       node.launch.energy = flight.meter->energy.shadow;
     }
     return node.launch.energy;

@@ -179,6 +179,20 @@ TEST(CustomLaw, ABadAnswerIsRefusedAndTheStateKept) {
   expect([](const ImpactProblem& x) { return x.p; }, "leaves ball_0 ~ ball_1 approaching");
 }
 
+// An elastic contact that the law leaves closing by rounding rests; nothing settles.
+TEST(CustomLaw, WhatIsLeftOfAnApproachIsRest) {
+  ModelBuilder b("ball");
+  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, 0.1);
+  const Model model = b.add_half_space("floor", Vec3::UnitZ()).build();
+  Stepper stepper(model, with_law([](const ImpactProblem& x) { return (1e-8 * x.p).eval(); }));
+  State state = model.state({{"height", 0.2}});
+  for (int k = 0; k < 100; ++k) {
+    stepper.step(state);
+    ASSERT_TRUE(stepper.report().settlings.empty()) << k;
+  }
+  EXPECT_NEAR(state.q[0], 0.1, 1e-9);
+}
+
 TEST(CustomLaw, OptionsThatContradictAreRefused) {
   const Model model = unequal_pendulums();
   StepOptions options{.law = ImpactLaw::custom};

@@ -13,7 +13,8 @@ struct SimulateOptions {
   ImpactLaw law = ImpactLaw::nodal_energy;
   bool collisions = true;
   int record_every = 1;  ///< steps between recorded rows; the last is always one
-  /// Bounds and tolerances. Its h, law and collisions are those above: leave them, or set the same.
+  /// Order, bounds and tolerances; the function of a custom law. Its h, law and collisions are
+  /// those above: leave them, or set the same.
   StepOptions step = {};
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.

@@ -12,7 +12,8 @@
 // Restitution is Poisson's: it is the impulse of the expansion that is e times that of the
 // compression. Where normal and tangential motion are not coupled (spheres, discs) this is Newton's
 // u+ = -e u-; where they are, Newton's could gain energy. What several contacts at once do is a
-// convention, as it is without friction (cascade.hpp): one after another, in the order asked for.
+// convention, as it is without friction (cascade.hpp): one after another, in the order asked for
+// (`symmetric` is `fastest` here).
 #pragma once
 
 #include <vector>
