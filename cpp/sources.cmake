@@ -66,12 +66,14 @@ set(SALTUS_SOURCES
   cpp/src/model/topology.cpp
   # variational
   cpp/src/variational/arc.cpp
+  cpp/src/variational/arc_constraints.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/certificate.cpp
   cpp/src/variational/certify.cpp
   cpp/src/variational/closing_arc.cpp
   cpp/src/variational/contact_problem.cpp
   cpp/src/variational/contact_qp.cpp
+  cpp/src/variational/contact_report.cpp
   cpp/src/variational/contacts.cpp
   cpp/src/variational/contact_vector.cpp
   cpp/src/variational/coulomb.cpp
@@ -92,7 +94,10 @@ set(SALTUS_SOURCES
   cpp/src/variational/overlap.cpp
   cpp/src/variational/outcomes.cpp
   cpp/src/variational/pair_pool.cpp
+  cpp/src/variational/pile.cpp
+  cpp/src/variational/redundant.cpp
   cpp/src/variational/slip_blocks.cpp
+  cpp/src/variational/slip_law.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp
   # rollout
@@ -139,6 +144,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_urdf.cpp
   # variational
   python/bindings/bind_contact_space.cpp
+  python/bindings/bind_report.cpp
   python/bindings/bind_stepper.cpp
   python/bindings/step_options.cpp
   python/bindings/bind_variational.cpp

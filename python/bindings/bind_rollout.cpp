@@ -71,6 +71,13 @@ py::object rows(const py::object& self) {
   return view(self.cast<const Trajectory&>().*field, self);
 }
 
+/// Friction of all impulses, 0 where they had none.
+MatX tangentials(const Trajectory& run) {
+  MatX out = MatX::Zero(static_cast<Eigen::Index>(run.impulses.size()), 3);
+  for (const TangentialImpulse& each : run.friction) out.row(each.impulse) = each.p_W;
+  return out;
+}
+
 void bind_trajectory(py::module_& m) {
   using T = Trajectory;
   py::class_<T>(m, "Trajectory", trajectory_doc)
@@ -87,6 +94,7 @@ void bind_trajectory(py::module_& m) {
       .def_property_readonly("impacts", &rows<&T::impacts>,
                              "structured array: t, first, count, contacts, law, fallback")
       .def_property_readonly("impulses", &rows<&T::impulses>, "structured array: pair, lambda")
+      .def_property_readonly("tangentials", &tangentials, "[N s] shape (impulses, 3)")
       .def_property_readonly("settlings", &rows<&T::settlings>, "structured array: t, pair")
       .def_readonly("certificates", &T::certificates, "a text an impact, none unless asked for")
       .def_readonly("iterations", &T::iterations)

@@ -30,6 +30,7 @@ void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
 void bind_contact_space(py::module_& m);
+void bind_report(py::module_& m);  ///< called by bind_stepper
 void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
 void bind_batch(py::module_& m);

@@ -143,7 +143,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             f"up to {VERSION}"
         )
     arrays: dict[str, Any] = {name: file[name][()] for name in ARRAYS}
-    arrays["impulses"] = file["impulses"][()].astype(IMPULSE)
+    arrays["impulses"] = _impulses(file["impulses"][()])
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
@@ -175,6 +175,13 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
         **arrays,
         **numbers,
     )
+
+
+def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:
+    impulses = np.zeros(len(stored), IMPULSE)  # older files say nothing of friction
+    for name in stored.dtype.names or ():
+        impulses[name] = stored[name]
+    return impulses
 
 
 def _step_options(file: h5py.File, numbers: dict[str, Any]) -> StepOptions:

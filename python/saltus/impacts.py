@@ -42,7 +42,8 @@ def count_line(impact: Impact) -> str:
 def impact_table(impact: Impact, *, most: int | None = None) -> str:
     """Return the cascade of an impact as text: its impulses in order, one a line.
 
-    `print(run.impact(0))` prints this, the middle of a long cascade left out.
+    `print(run.impact(0))` prints this, the middle of a long cascade left out. With friction there
+    is a column of its impulses on the first shape of each pair, in the world.
 
     Parameters
     ----------
@@ -58,17 +59,24 @@ def impact_table(impact: Impact, *, most: int | None = None) -> str:
     shown = total if most is None else min(most, total)
     first = [*range(shown - shown // 2)]
     last = [*range(total - shown // 2, total)]
-    cells = {i: (str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}") for i in (*first, *last)}
-    heads = ("#", "pair", "λ [N s]")
+    cells = {i: _cells(impact, i) for i in (*first, *last)}
+    heads = ("#", "pair", "λ [N s]", "friction [N s]")
     wide = [max(map(len, column)) for column in zip(heads, *cells.values(), strict=True)]
+    rubs = impact.tangentials.any()
 
-    def line(number: str, pair: str, value: str) -> str:
-        return f"  {number:>{wide[0]}}  {pair:<{wide[1]}}  {value}"
+    def line(number: str, pair: str, value: str, friction: str) -> str:
+        start = f"  {number:>{wide[0]}}  {pair:<{wide[1]}}  "
+        return start + (f"{value:<{wide[2]}}  {friction}" if rubs else value)
 
     lines = [headline(impact), line(*heads), *(line(*cells[i]) for i in first)]
     if shown < total:
         lines.append(f"  {'':>{wide[0]}}  ... {total - shown} more")
     return "\n".join([*lines, *(line(*cells[i]) for i in last)])
+
+
+def _cells(impact: Impact, i: int) -> tuple[str, str, str, str]:
+    friction = ", ".join(f"{value:.3g}" for value in impact.tangentials[i] + 0.0)
+    return str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}", f"({friction})"
 
 
 def _count(n: int, noun: str) -> str:

@@ -24,7 +24,9 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8")])
+IMPULSE = np.dtype(
+    [("impact", "i8"), ("pair", "i4"), ("lambda", "f8"), ("tangential", "f8", (3,))]
+)
 
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
@@ -64,7 +66,8 @@ class Trajectory:
         Structured, in order of time: "t" [s], "first" and "count" (its rows in `impulses`),
         "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
     impulses : numpy.ndarray
-        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s].
+        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s],
+        "tangential" [N s] (friction on the pair's first shape, in the world, three numbers).
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
     certificates : tuple of str
@@ -108,6 +111,7 @@ class Trajectory:
         impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
         impulses["pair"] = core.impulses["pair"]
         impulses["lambda"] = core.impulses["lambda"]
+        impulses["tangential"] = core.tangentials
         settlings = core.settlings.astype(SETTLING)
         model = core.model
         pair_names = names_of_pairs(model, impulses, settlings)
@@ -186,6 +190,7 @@ class Trajectory:
             law=ImpactLaw(int(row["law"])),
             fallback=bool(row["fallback"]),
             certificate=self.certificates[index] if self.certificates else "",
+            tangentials=own["tangential"],
         )
 
     def require_model(self) -> Model:

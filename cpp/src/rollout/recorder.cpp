@@ -22,7 +22,7 @@ Energies energies(const Model& model, const State& state, double h) {
 }
 
 Trajectory empty_trajectory(const Model& model, Eigen::Index rows) {
-  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
+  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
   for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->setZero(rows);
   for (MatX* x : {&run.q, &run.v, &run.p}) x->setZero(rows, model.n_q());
   return run;
@@ -45,6 +45,7 @@ void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows
 void take_outcome(RunOutcome&& outcome, Trajectory& run) {
   run.impacts = std::move(outcome.impacts);
   run.impulses = std::move(outcome.impulses);
+  run.friction = std::move(outcome.friction);
   run.settlings = std::move(outcome.settlings);
   run.certificates = std::move(outcome.certificates);
   run.iterations = outcome.iterations;

@@ -56,6 +56,10 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
     outcome.impacts.push_back(impact);
   }
   outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
+  for (TangentialImpulse each : report.friction) {
+    each.impulse += shift;
+    outcome.friction.push_back(each);
+  }
   outcome.settlings.insert(outcome.settlings.end(), report.settlings.begin(),
                            report.settlings.end());
   outcome.certificates.insert(outcome.certificates.end(), report.certificates.begin(),

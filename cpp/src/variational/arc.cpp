@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "saltus/collision/slip.hpp"
+#include "variational/arc_constraints.hpp"
 
 namespace saltus {
 namespace {
@@ -78,8 +78,6 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   return (s.r.array().abs() / (s.scale.array() + a.p.array().abs() + tiny)).maxCoeff();
 }
 
-namespace {
-
 double discrete_energy(const ModelData& model, const ArcProblem& a, const VecX& v,
                        const ArcScratch& s) {
   const double energy = 0.5 * v.dot(s.L_v) + potential_energy(model.packed, s.w);
@@ -89,85 +87,7 @@ double discrete_energy(const ModelData& model, const ArcProblem& a, const VecX& 
          a.tau * a.tau * k.shadow.kappa / 12;
 }
 
-/// The rate at which a sticking pair slides; its gradient, but for the turning of t, in c.row.
-double slide_rate(const ModelData& model, const VecX& v, ArcConstraint& c, ArcScratch& s) {
-  c.row.setZero();
-  const Gap g = pair_gap_at_mid(model, c.watched(), s);
-  const Tangents t = tangents(g.n_W, c.axis);
-  add_motion_gradient(model.tree, s.kin_end, c.watched(), contact_point(g),
-                      c.tangent == 0 ? t.t0 : t.t1, c.row);
-  return c.row.dot(v);
-}
-
-/// c and dc/dv of one constraint; c is scaled by tau (hold), so that it stays regular at tau = 0.
-double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, ArcConstraint& c,
-                  ArcScratch& s) {
-  if (c.kind == ArcConstraint::Kind::stick) return slide_rate(model, v, c, s);
-  c.row.setZero();
-  if (c.kind == ArcConstraint::Kind::hold) {
-    const Gap g = pair_gap_at_end(model, c.watched(), s);
-    add_gap_gradient(model.tree, s.kin_end, c.watched(), g, c.row);
-    return (g.phi - c.target) / a.tau;
-  }
-  // dE_d/dv = L_vv v + tau/2 (L_vq^T v - L_q); w has v as its rates, and L_vv v = L_v
-  multiply_by_rates(model.packed, s.w, s.products);
-  gather(model.tree, model.packed, s.products.by_joint, 1, s.L_qv_v);
-  c.row = s.L_v + a.tau / 2 * (s.L_qv_v - s.L_q);
-  if (a.whole > 0) {  // of what c kappa adds, the part without second partials of kappa
-    const ShadowTerm& shadow = s.compensation->shadow;
-    c.row += a.tau * a.tau / 12 * (shadow.kappa_v + a.tau / 2 * shadow.kappa_q);
-  }
-  return discrete_energy(model, a, v, s) - c.target;
-}
-
-// J dv - N dlambda = r, C dv = -c, by the Schur complement C J^-1 N.
-void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
-  const int m = static_cast<int>(a.constraints.size());
-  if (m == 0) return;
-  s.x = a.q + a.tau * v;
-  place_end(model, s.x, s);
-  SmallMat S(m, m);
-  SmallVec rhs(m);
-  for (int i = 0; i < m; ++i) {
-    ArcConstraint& c = a.constraints[i];
-    rhs[i] = -constraint(model, a, v, c, s) - c.row.dot(s.dv);
-    c.column = c.n;
-    solve(model.tree, model.packed, s.J, c.column);
-  }
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < m; ++j) S(i, j) = a.constraints[i].row.dot(a.constraints[j].column);
-  }
-  const SmallVec dlambda = solve_small(S, rhs);
-  for (int i = 0; i < m; ++i) {
-    a.constraints[i].lambda += dlambda[i];
-    s.dv += dlambda[i] * a.constraints[i].column;
-  }
-}
-
-/// How far the constraints are from closed, scaled like the momentum residual.
-double constraint_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
-                           ArcScratch& s) {
-  double size = 0;
-  if (a.constraints.empty()) return size;
-  s.x = a.q + a.tau * v;
-  place_end(model, s.x, s);
-  for (ArcConstraint& c : a.constraints) {
-    if (c.kind == ArcConstraint::Kind::stick) {
-      // a hundredth of what closes a gap: what slides does not come back
-      const double way = a.tau * slide_rate(model, v, c, s);
-      size = std::max(size, std::abs(way) / c.pair->touch * 1e-10);
-    } else if (c.kind == ArcConstraint::Kind::hold) {
-      const double phi = pair_gap_at_end(model, c.watched(), s).phi;
-      // 1e-12: a hundredth of pair.touch is closed
-      size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);
-    } else {
-      const double energy = discrete_energy(model, a, v, s);
-      size = std::max(size,
-                      std::abs(energy - c.target) / (std::abs(c.target) + std::abs(v.dot(s.L_v))));
-    }
-  }
-  return size;
-}
+namespace {
 
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
   const double size = momentum_residual(model, a, v, s);

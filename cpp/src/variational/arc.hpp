@@ -33,6 +33,7 @@
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
 #include "variational/grip.hpp"
+#include "variational/redundant.hpp"
 #include "variational/small_system.hpp"
 
 namespace saltus {
@@ -98,6 +99,7 @@ struct ArcScratch {
   Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
   VecX x, L_v, L_q, r, scale, dv;
   VecX L_qv_v, L_vq_v, L_qq_v;
+  RedundantSystem many;  ///< of more constraints than most_constraints
 };
 
 /// @return false when it does not converge within options.max_iterations; `arc` then holds the

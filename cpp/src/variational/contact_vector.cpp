@@ -28,6 +28,15 @@ TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.pack
   for (const auto& each : of) most = std::max(most, static_cast<int>(each.size()));
 }
 
+bool share_a_tree(const ContactVector& x, const ContactVector& y) {
+  for (const ContactVector::Part& a : x.part) {
+    for (const ContactVector::Part& b : y.part) {
+      if (a.tree >= 0 && a.tree == b.tree) return true;
+    }
+  }
+  return false;
+}
+
 void shape_row(const ModelData& model, const TreeCoordinates& trees, const Pair& pair,
                ContactVector& row) {
   row.part = {};
@@ -73,6 +82,10 @@ double dot(const ContactVector& row, const ContactVector& column) {
 
 void add(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x) {
   for_each(trees, row, [&](double value, int c) { x[c] += factor * value; });
+}
+
+void add_sizes(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x) {
+  for_each(trees, row, [&](double value, int c) { x[c] += std::abs(factor * value); });
 }
 
 void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,

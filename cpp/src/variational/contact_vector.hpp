@@ -30,6 +30,9 @@ struct ContactVector {
   std::vector<double> value;
 };
 
+/// Where not, an impulse along one is not felt by the other.
+bool share_a_tree(const ContactVector& x, const ContactVector& y);
+
 /// Parts of a pair's row, all zero.
 void shape_row(const ModelData& model, const TreeCoordinates& trees, const Pair& pair,
                ContactVector& row);
@@ -43,6 +46,8 @@ double dot(const ContactVector& row, const ContactVector& column);
 double dot_sizes(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
 /// x += factor row
 void add(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x);
+/// x += |factor row|
+void add_sizes(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x);
 /// column <- M^-1 row
 void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,
            PackedMatrix& M, VecX& scratch, ContactVector& column);

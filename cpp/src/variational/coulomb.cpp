@@ -67,6 +67,22 @@ Vec3 stick(const Mat3& W, const Axes& axes, const Vec3& u) {
   return Vec3(lambda, beta[0], beta[1]);
 }
 
+/// Where W is singular, along n = (1, n_t) with W n = 0 inside of the cone: friction can be held
+/// against any approach, p = (0, beta) + lambda n stops it for every lambda, and the least lambda
+/// is taken whose p is in the cone. @return lambda < 0 where n is not inside
+Vec3 jam(const Mat3& W, const Axes& axes, const Vec3& u, double friction) {
+  const auto over_W = [&](const Vec2& x) {
+    const Vec2 y = axes.Q.transpose() * x;
+    return Vec2(axes.Q * Vec2(over(y[0], axes.a[0]), over(y[1], axes.a[1])));
+  };
+  const Vec2 beta = -over_W(u.tail<2>()), n_t = -over_W(W.block<2, 1>(1, 0));
+  const double room = friction * friction - n_t.squaredNorm(), half = beta.dot(n_t);
+  if (!(room > 1e-12 * friction * friction)) return Vec3(-1, 0, 0);
+  const double lambda = (half + std::sqrt(half * half + room * beta.squaredNorm())) / room;
+  const Vec2 held = beta + lambda * n_t;
+  return Vec3(lambda, held[0], held[1]);
+}
+
 }  // namespace
 
 Vec2 least_in_disc(const Mat2& A, const Vec2& c, double radius) {
@@ -97,7 +113,10 @@ Vec3 stop_contact(const Mat3& W, const Vec3& u, double friction) {
   if (is_rounding(h_hi)) return p;
   double lo = 0, h_lo = u[0];
   for (int k = 0; h_hi < 0; ++k) {
-    if (k == 60) return smooth;  // W is singular: friction that could never be held against
+    if (k == 60) {
+      const Vec3 held = jam(W, axes, u, friction);
+      return held[0] >= 0 ? held : smooth;  // not inside: u is not in the range of W
+    }
     lo = hi, h_lo = h_hi;
     h_hi = rate(hi *= 2);
   }

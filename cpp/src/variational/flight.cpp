@@ -23,9 +23,10 @@ void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pa
   put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
 }
 
-/// Holds a resting pair closed from now on; its gap is brought to exactly 0.
+}  // namespace
+
 bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
-  if (f.active == most_constraints) return false;
+  if (f.active == static_cast<int>(f.constraints.size())) return false;
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
   c.pair = &node.pool[pair];
@@ -48,6 +49,14 @@ void release(int i, Node& node, Flight& f) {
   --f.active;
 }
 
+double floor_of(const Node& node, int pair) {
+  const int contact = node.contact_of[pair];
+  const double phi = contact < 0 ? node.sunk[pair] : node.contacts[contact].phi;
+  return std::min(0.0, phi) - node.pool[pair].touch;
+}
+
+namespace {
+
 bool start_constraints(const ModelData& model, Node& node, Flight& f) {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
@@ -59,13 +68,6 @@ bool start_constraints(const ModelData& model, Node& node, Flight& f) {
     }
   }
   return true;
-}
-
-/// The gap below which a pair that rests at the node is pressed: it may not sink any further.
-double floor_of(const Node& node, int pair) {
-  const int contact = node.contact_of[pair];
-  const double phi = contact < 0 ? node.sunk[pair] : node.contacts[contact].phi;
-  return std::min(0.0, phi) - node.pool[pair].touch;
 }
 
 enum class Holds { unchanged, changed, too_many };
@@ -182,22 +184,27 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
   f.active = 0;
+  if (node.friction.any) make_room(model, node, f);
   if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
-  if (node.friction.any && !start_grips(left, node, f)) return FlightOutcome::too_many_contacts;
-  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived
-                                                        : FlightOutcome::not_converged;
+  if (node.friction.any) start_grips(left, node, f);
+  return solve_first_arc(model, options, left, node, f) || restart(model, options, left, node, f)
+             ? FlightOutcome::arrived
+             : FlightOutcome::not_converged;
 }
 
 /// Complementarity of what is held and of what sticks; `settled` is false where the arc has to be
 /// solved again.
 FlightOutcome update_contacts(const ModelData& model, const StepOptions& options, Node& node,
                               Flight& f, bool& settled) {
+  if (rests_with_friction(node)) {
+    return update_grips(model, options, node, f) == Grips::settled
+               ? FlightOutcome::arrived
+               : FlightOutcome::friction_not_settled;
+  }
+  const bool let_go = drop_sticks(f);
   const Holds holds = update_holds(model, node, f);
   if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
-  const Grips grips = update_grips(model, options, holds == Holds::changed, node, f);
-  if (grips == Grips::too_many) return FlightOutcome::too_many_contacts;
-  if (grips == Grips::not_settled) return FlightOutcome::friction_not_settled;
-  settled = holds == Holds::unchanged && grips != Grips::changed;
+  settled = holds == Holds::unchanged && !let_go;
   return FlightOutcome::arrived;
 }
 
@@ -229,20 +236,25 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
 
 }  // namespace
 
+ArcConstraint fresh_constraint(const ModelData& model) {
+  ArcConstraint c;
+  c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
+  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.coordinates);
+  return c;
+}
+
 Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
     : history(model.tree.coordinates),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
       constraints(most_constraints),
-      slip(with_friction, model.tree.coordinates) {
+      slip(with_friction) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
-  for (ArcConstraint& c : constraints) {
-    c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
-    for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(n_q);
-  }
+  for (VecX* x : {&slip.carried, &slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
+  for (ArcConstraint& c : constraints) c = fresh_constraint(model);
 }
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
@@ -275,6 +287,10 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     solved = found == ImpactTime::found;
     if (solved) tau = f.arc.tau;
     if (found != ImpactTime::not_converged) continue;
+    if (restart(model, options, tau, node, f)) {
+      solved = true;
+      continue;
+    }
     if (!drop_launch(node, f)) return FlightOutcome::not_converged;
     fallback = true;
     tau = left;

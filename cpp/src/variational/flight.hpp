@@ -27,14 +27,14 @@ struct SlipRows {
 
 /// Scratch of flight_friction.cpp; empty without friction.
 struct SlipScratch {
-  SlipScratch(bool with_friction, int n_q);
+  explicit SlipScratch(bool with_friction) : friction(with_friction) {}
   FrictionScratch friction;   ///< of the holds; `contact` are their constraints
-  ContactBlocks at_start;     ///< W with all rows at the arc's start: who depends on whom
-  std::vector<SlipRows> row;  ///< (most_constraints) of the holds
+  std::vector<SlipRows> row;  ///< of the holds
   std::vector<Vec3> before;
-  int rounds = 0;
+  bool restarted = false;  ///< the arc has been solved anew without what was held before
   bool carries = false;  ///< some impulses are no unknowns of the arc:
   VecX carried, p;       ///< (n_q) their sum; the node's p and that, written by arc_problem
+  VecX size;             ///< (n_q) of all that is summed up in p, written by set_slip_rates
 };
 
 struct Flight {
@@ -52,7 +52,8 @@ struct Flight {
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
+  /// A pool, of most_constraints, or with friction as many as contacts ask for; `active` are used.
+  std::vector<ArcConstraint> constraints;
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
@@ -75,5 +76,19 @@ enum class FlightOutcome {
 /// @param fallback set where options.law could not be met and nodal_energy was used
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& flight, bool& fallback);
+
+// Of flight.cpp, for flight_friction.cpp:
+
+/// With memory for all that a constraint may come to hold.
+ArcConstraint fresh_constraint(const ModelData& model);
+
+/// Holds a resting pair closed from now on; its gap is brought to exactly 0. @return false: no room
+bool hold(const ModelData& model, int pair, Node& node, Flight& flight);
+
+/// Lets go of the pair of constraint i. The last constraint takes its place.
+void release(int i, Node& node, Flight& flight);
+
+/// The gap below which a pair that rests at the node is pressed: it may not sink any further.
+double floor_of(const Node& node, int pair);
 
 }  // namespace saltus

@@ -1,18 +1,26 @@
 #include "variational/flight_friction.hpp"
 
+#include <cstdio>
+#include <cstdlib>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "variational/impact_time.hpp"
 #include "variational/slip_blocks.hpp"
+#include "variational/slip_law.hpp"
 
 namespace saltus {
 namespace {
 
-/// Every round meets the law better by a factor of order h, once who sticks is known.
-constexpr int most_rounds = 30;
-constexpr int strict_rounds = 12;
-constexpr double strict = 1e-10, loose = 1e-7;  ///< lawlessness that is none
+constexpr int most_rounds = 30;  ///< 2 to 5 are usual
+
+/// Rounding, or no longer falling and small, or no more than what a held gap may be off.
+bool is_lawful(const Lawlessness& now, double before) {
+  if (now.residual <= 1e-14) return true;
+  return now.residual > before / 4 && std::min(now.residual, now.excess) <= 1e-10;
+}
 
 using Kind = ArcConstraint::Kind;
 
@@ -26,15 +34,6 @@ int put_sticks_last(Flight& f) {
     ++first;
   }
   return first;
-}
-
-/// Sticks of pairs that are not held any more. Holds stay where they are.
-void drop_orphans(const Node& node, int first, Flight& f) {
-  for (int i = f.active - 1; i >= first; --i) {
-    if (node.held[f.constraints[i].place]) continue;
-    std::swap(f.constraints[i], f.constraints[f.active - 1]);
-    --f.active;
-  }
 }
 
 /// Impulses along tangents that are no unknowns of the arc.
@@ -52,8 +51,7 @@ void sum_carried(const Node& node, Flight& f) {
 
 /// Force directions and impulses of a hold that does as c.grip says.
 /// @param solved the tangents whose impulse is an unknown, where it sticks
-/// @return false: no room
-bool set_forces(const Node& node, int i, const Vec3& p, const std::array<bool, 2>& solved,
+void set_forces(const Node& node, int i, const Vec3& p, const std::array<bool, 2>& solved,
                 Flight& f) {
   ArcConstraint& c = f.constraints[i];
   const Contact& contact = contact_of(node, c);
@@ -65,13 +63,12 @@ bool set_forces(const Node& node, int i, const Vec3& p, const std::array<bool, 2
     const Vec3 along = slide_direction(c.grip, contact.friction);
     for (int k = 0; k < 2; ++k) add(node.trees, along[k + 1], contact.t[k], c.n);
   }
-  if (c.grip.mode != Grip::Mode::sticks) return true;
+  if (c.grip.mode != Grip::Mode::sticks) return;
   for (int k = 0; k < 2; ++k) {
     if (!solved[k]) {
       c.carried[k] = p[k + 1];
       continue;
     }
-    if (f.active == most_constraints) return false;
     ArcConstraint& stick = f.constraints[f.active++];
     stick.kind = Kind::stick;
     stick.place = c.place;
@@ -84,108 +81,123 @@ bool set_forces(const Node& node, int i, const Vec3& p, const std::array<bool, 2
     stick.n.setZero();
     add(node.trees, 1, contact.t[k], stick.n);
   }
-  return true;
 }
 
-/// How far a hold is from Coulomb's law: by a part of the forces, or of the speeds that there are.
-double lawlessness(const ModelData& model, const Node& node, double size, const ArcConstraint& c,
-                   Flight& f) {
-  const Contact& contact = contact_of(node, c);
-  if (!(c.lambda > 1e-12 * size)) return 0;
-  if (c.grip.mode == Grip::Mode::none) return 1;
-  if (c.grip.mode == Grip::Mode::sticks) {
-    const double limit = contact.friction * c.lambda;
-    return (impulse_of(node, c, f).tail<2>().norm() - limit) / (contact.friction * size);
-  }
-  add_slide_rows(model, c, f.scratch, f.slip.row[0].t0, f.slip.row[0].t1);
-  const Vec2 slide(f.slip.row[0].t0.dot(f.arc.v), f.slip.row[0].t1.dot(f.arc.v));
-  const double speed = slide.norm();
-  // of the speeds that there are: what hardly slides has hardly a direction
-  const double least = std::max(contact.epsilon_u, 1e-14);
-  return strict * (slide - speed * c.grip.slide).norm() / least;
-}
-
-/// The most lawless hold, and by how much.
-double worst(const ModelData& model, const Node& node, Flight& f) {
-  double most = 0, size = 0;
-  for (int i = 0; i < f.active; ++i) {
-    if (f.constraints[i].kind == Kind::hold) size = std::max(size, f.constraints[i].lambda);
-  }
-  for (const int i : f.slip.friction.contact) {
-    const ArcConstraint& c = f.constraints[i];
-    if (!(contact_of(node, c).friction > 0)) continue;
-    const double each = lawlessness(model, node, size, c, f);
-    if (!(each > most)) continue;
-    most = each;
-    f.closing = c.place;
-  }
-  return most;
-}
-
-/// Who sticks and who slides from the law solved for the linearised arc.
-/// @param first how many constraints are none of `stick`
-Grips resettle(const ModelData& model, const StepOptions& options, int first, Node& node,
-               Flight& f) {
+/// All that rests is held, in slip.friction.contact, with its impulses in slip.friction.p. Nothing
+/// sticks.
+void hold_all(const ModelData& model, int first, Node& node, Flight& f) {
   FrictionScratch& x = f.slip.friction;
-  f.closing = f.constraints[x.contact[0]].place;
-  sum_carried(node, f);
-  if (!set_slip_blocks(model, options, node, f)) return Grips::not_settled;
-  f.slip.before = x.p;
-  settle(x.W, most_sweeps, x.u, x.p);
-  for (std::size_t i = 0; i < x.contact.size(); ++i) {
-    const Vec3 dp = x.p[i] - f.slip.before[i];
-    ArcConstraint& c = f.constraints[x.contact[i]];
-    const SlipRows& row = f.slip.row[i];
-    f.arc.v += dp[0] * c.column;
-    if (x.W.friction[i] > 0) f.arc.v += dp[1] * row.column0 + dp[2] * row.column1;
-    c.grip = grip_of(x.u[i], x.p[i], x.W.friction[i], x.W.rest[i]);
+  x.contact.clear();
+  x.p.clear();
+  x.W.own.clear();
+  for (int i = 0; i < first; ++i) {
+    if (f.constraints[i].kind != Kind::hold) continue;
+    x.contact.push_back(i);
+    x.p.push_back(impulse_of(node, f.constraints[i], f));
   }
   f.active = first;
-  const auto sticks = [&](int i) {
-    return f.constraints[x.contact[i]].grip.mode == Grip::Mode::sticks;
-  };
-  int wanted = 0;  // three a contact, if all that rest here come to be held and stick
   for (int i = 0; i < node.touching; ++i) {
-    wanted += node.contacts[i].motion == Contact::Motion::rests ? 3 : 0;
+    const Contact& c = node.contacts[i];
+    if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
+    x.contact.push_back(f.active);
+    x.p.push_back(Vec3::Zero());
+    hold(model, c.pair, node, f);
   }
-  IndependentRates rates(f.slip.at_start);  // where not all find room
-  for (int i = 0; i < x.W.size() && wanted > most_constraints; ++i) rates.take(i, 0);
-  for (int i = 0; i < x.W.size(); ++i) {
-    const Mat3& own = f.slip.at_start.own[i];
-    std::array<bool, 2> solved = {};
-    for (int k = 1; k < 3; ++k) {
-      const bool moves = own(k, k) > 1e-20 * own(0, 0);
-      solved[k - 1] = sticks(i) && moves && (wanted <= most_constraints || rates.take(i, k));
-    }
-    if (!set_forces(node, x.contact[i], x.p[i], solved, f)) return Grips::too_many;
-  }
-  sum_carried(node, f);
-  return Grips::changed;
 }
 
-/// The holds, in flight.slip.friction.contact. @return true where some of them has friction
-bool list_holds(const Node& node, Flight& f) {
-  bool any = false;
-  f.slip.friction.contact.clear();
-  for (int i = 0; i < f.active; ++i) {
-    if (f.constraints[i].kind != Kind::hold) continue;
-    f.slip.friction.contact.push_back(i);
-    any = any || contact_of(node, f.constraints[i]).friction > 0;
+/// Lets go of what is not pressed.
+void release_idle(Node& node, Flight& f) {
+  FrictionScratch& x = f.slip.friction;
+  double size = 0;
+  for (const Vec3& p : x.p) size = std::max(size, p[0]);
+  for (std::size_t k = x.contact.size(); k-- > 0;) {
+    if (x.p[k][0] > 1e-13 * size) continue;
+    const int last = f.active - 1;
+    for (int& other : x.contact) {
+      if (other == last) other = x.contact[k];
+    }
+    release(x.contact[k], node, f);
+    x.contact[k] = -1;
   }
-  return any;
+}
+
+/// Unknowns of what sticks: all tangents, or if they are many those that follow from no others.
+void set_grips(const Node& node, Flight& f) {
+  FrictionScratch& x = f.slip.friction;
+  const bool few = 3 * static_cast<int>(x.contact.size()) <= most_constraints;
+  IndependentRates& rates = x.polish.rates;
+  rates.start();
+  for (int i = 0; i < x.W.size() && !few; ++i) {
+    if (x.contact[i] >= 0) rates.take(x.W, i, 0);
+  }
+  for (int i = 0; i < x.W.size(); ++i) {
+    if (x.contact[i] < 0) continue;
+    ArcConstraint& c = f.constraints[x.contact[i]];
+    c.grip = grip_of(x.u[i], x.p[i], x.W.friction[i], x.W.rest[i]);
+    const Mat3& own = x.W.own[i];
+    std::array<bool, 2> solved = {};
+    for (int k = 1; k < 3 && c.grip.mode == Grip::Mode::sticks; ++k) {
+      const bool moves = own(k, k) > 1e-20 * own(0, 0);
+      solved[k - 1] = moves && (few || rates.take(x.W, i, k));
+    }
+    set_forces(node, x.contact[i], x.p[i], solved, f);
+  }
+  sum_carried(node, f);
+}
+
+/// Newton's method for the arc with Coulomb's law in it: linearised, it is settle_pile's problem.
+/// @param first how many constraints are none of `stick`
+Grips solve_with_law(const ModelData& model, const StepOptions& options, int first, Node& node,
+                     Flight& f) {
+  FrictionScratch& x = f.slip.friction;
+  hold_all(model, first, node, f);
+  f.closing = f.constraints[x.contact[0]].place;
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0;; ++round) {
+    const Lawlessness now = set_slip_rates(model, options, node, f);
+    if (getenv("DBG")) printf("  round %d tau %g res %.3e excess %.3e mom %.3e before %.3e\n", round, f.arc.tau, now.residual,now.excess, f.arc.residual,before);
+    if (round > 0 && is_lawful(now, before)) break;
+    if (round == most_rounds || !std::isfinite(now.residual)) return Grips::not_settled;
+    before = now.residual;
+    if (!set_slip_blocks(model, node, f)) return Grips::not_settled;
+    f.slip.before = x.p;
+    if (getenv("DBG")) { auto uu=x.u, pp=x.p; auto st=settle_pile(x.W,x.pile,uu,pp); printf("    settle %.3e %.3e it %d\n",st.residual,st.excess,st.iterations); if(st.residual>1e-10||st.iterations>150){ static int n=0; char name[40]; sprintf(name,"/tmp/pilex/dump%d",n++); FILE*o=fopen(name,"w"); fprintf(o,"%d\n",x.W.size()); for(int i=0;i<x.W.size();i++){fprintf(o,"%.17g %.17g\n",x.W.friction[i],x.W.rest[i]); for(double q:x.u[i])fprintf(o,"%.17g ",q); for(double q:x.p[i])fprintf(o,"%.17g ",q); fprintf(o,"\n%d\n",x.W.start[i+1]-x.W.start[i]); for(int e=x.W.start[i];e<x.W.start[i+1];e++){fprintf(o,"%d\n",x.W.contact[e]); for(double q:x.W.block[e].reshaped())fprintf(o,"%.17g ",q); fprintf(o,"\n");}} fclose(o); printf("dumped %s\n",name);} }
+    if (!(settle_pile(x.W, x.pile, x.u, x.p).excess <= small_residual)) return Grips::not_settled;
+    for (std::size_t i = 0; i < x.contact.size(); ++i) {
+      const Vec3 dp = x.p[i] - f.slip.before[i];
+      const SlipRows& row = f.slip.row[i];
+      f.arc.v += dp[0] * f.constraints[x.contact[i]].column;
+      if (x.W.friction[i] > 0) f.arc.v += dp[1] * row.column0 + dp[2] * row.column1;
+    }
+    ++f.iterations;
+  }
+  finish_arc({node.q, f.slip.p, f.arc.tau, {}, whole_step(options)}, f.arc, f.scratch);
+  release_idle(node, f);
+  set_grips(node, f);
+  return Grips::settled;
 }
 
 }  // namespace
 
-SlipScratch::SlipScratch(bool with_friction, int n_q) : friction(with_friction) {
-  if (!with_friction) return;
-  row.resize(most_constraints);
-  for (SlipRows& each : row) {
-    for (VecX* x : {&each.t0, &each.t1, &each.column0, &each.column1}) x->setZero(n_q);
+bool rests_with_friction(const Node& node) {
+  if (!node.friction.any) return false;
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.motion == Contact::Motion::rests && c.friction > 0) return true;
   }
-  before.reserve(most_constraints);
-  reserve_blocks(at_start);
-  for (VecX* x : {&carried, &p}) x->setZero(n_q);
+  return false;
+}
+
+void make_room(const ModelData& model, const Node& node, Flight& f) {
+  const std::size_t wanted = 3 * static_cast<std::size_t>(node.touching) + 1;  // and a launch
+  while (f.constraints.size() < wanted) f.constraints.push_back(fresh_constraint(model));
+  while (f.slip.row.size() < std::max(wanted / 3, std::size_t{1})) {
+    SlipRows row;
+    for (VecX* x : {&row.t0, &row.t1, &row.column0, &row.column1}) {
+      x->setZero(model.tree.coordinates);
+    }
+    f.slip.row.push_back(std::move(row));
+  }
 }
 
 int count_holds(const Flight& f) {
@@ -194,39 +206,44 @@ int count_holds(const Flight& f) {
   return count;
 }
 
-bool start_grips(double left, Node& node, Flight& f) {
+void start_grips(double left, Node& node, Flight& f) {
   const int flight = node.friction.flight++;
-  f.slip.rounds = 0;
+  f.slip.restarted = false;
   const int holds = f.active;
   for (int i = 0; i < holds; ++i) {
     ArcConstraint& c = f.constraints[i];
     const GripMemory& memory = node.friction.memory[c.place];
     if (memory.flight != flight || !(contact_of(node, c).friction > 0)) continue;
     c.grip = memory.grip;
-    if (!set_forces(node, i, left / memory.tau * memory.p, memory.solved, f)) return false;
+    set_forces(node, i, left / memory.tau * memory.p, memory.solved, f);
   }
   sum_carried(node, f);
-  return true;
 }
 
-Grips update_grips(const ModelData& model, const StepOptions& options, bool changed, Node& node,
-                   Flight& f) {
-  if (!node.friction.any) return Grips::unchanged;
+Grips update_grips(const ModelData& model, const StepOptions& options, Node& node, Flight& f) {
   const int first = put_sticks_last(f);
-  drop_orphans(node, first, f);
-  if (!list_holds(node, f)) {
-    f.slip.carries = false;
-    return Grips::unchanged;
+  if (lawlessness(model, node, f) <= strict) return Grips::settled;
+  return solve_with_law(model, options, first, node, f);
+}
+
+bool drop_sticks(Flight& f) {
+  f.slip.carries = false;
+  const int before = f.active;
+  f.active = put_sticks_last(f);
+  return f.active < before;
+}
+
+bool restart(const ModelData& model, const StepOptions& options, double tau, Node& node,
+             Flight& f) {
+  if (f.active == 0 || f.slip.restarted || !rests_with_friction(node)) return false;
+  f.slip.restarted = true;
+  for (int i = 0; i < f.active; ++i) {
+    if (f.constraints[i].kind == Kind::hold) node.held[f.constraints[i].place] = 0;
   }
-  if (!changed) {
-    if (worst(model, node, f) <= (f.slip.rounds < strict_rounds ? strict : loose)) {
-      f.slip.rounds = 0;
-      return Grips::unchanged;
-    }
-    if (f.slip.rounds == most_rounds) return Grips::not_settled;
-  }
-  ++f.slip.rounds;
-  return resettle(model, options, first, node, f);
+  f.active = 0;
+  f.slip.carries = false;
+  f.arc.v = node.v;
+  return solve_flight_arc(model, options, tau, node, f);
 }
 
 void remember_grips(Node& node, const Flight& f) {

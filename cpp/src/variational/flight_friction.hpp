@@ -5,26 +5,37 @@
 // Rows of the forces are those at the arc's start, and the closing half kick at its end is
 // settle_with_friction: the same law for M^-1 p there.
 //
-// An arc is solved with what the one before did. If that breaks Coulomb's law, the law is solved
-// for the arc linearised at hand (`settle`, over W = C J^-1 [N; T]^T), which says who sticks and
-// who slides, and the arc is solved again with that, until the law holds.
+// An arc is solved with what the one before did. If that breaks the law, it is solved once more
+// together with the law of all contacts that rest, by Newton's method: each linearised arc is a
+// problem for settle_pile, over [N; T] J^-1 [N; T]^T. That says who is pressed, sticks and slides.
 #pragma once
 
 #include "variational/flight.hpp"
 
 namespace saltus {
 
-enum class Grips { unchanged, changed, too_many, not_settled };
+enum class Grips { settled, not_settled };
+
+/// Some contact that rests at the node has friction: then update_grips says what is held.
+bool rests_with_friction(const Node& node);
+
+/// Room in the flight for all that touches to be held and to stick.
+void make_room(const ModelData& model, const Node& node, Flight& flight);
 
 /// Starts the holds of a flight with what they did in the one before. Needs the flight's number.
-/// @return false where there are too many constraints
-bool start_grips(double left, Node& node, Flight& flight);
+void start_grips(double left, Node& node, Flight& flight);
 
-/// Checks the arc just solved against Coulomb's law, and changes who sticks and slides if need be.
-/// @param changed the holds are not those of the last call
-/// @return not_settled: the law is not met in the bounded number of rounds by flight.closing
-Grips update_grips(const ModelData& model, const StepOptions& options, bool changed, Node& node,
-                   Flight& flight);
+/// Checks the arc just solved against Coulomb's law, and solves it anew if need be.
+/// @return not_settled: the law is not met in a bounded number of rounds
+Grips update_grips(const ModelData& model, const StepOptions& options, Node& node, Flight& flight);
+
+/// Takes out what sticks, where none that rests has friction any more. @return true where any did
+bool drop_sticks(Flight& flight);
+
+/// Once a flight, where what was held before leads to no arc: solves a free one, from which
+/// update_grips finds all anew.
+bool restart(const ModelData& model, const StepOptions& options, double tau, Node& node,
+             Flight& flight);
 
 /// For the closing half kick, and the next flight's start.
 void remember_grips(Node& node, const Flight& flight);

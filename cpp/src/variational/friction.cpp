@@ -7,6 +7,7 @@
 
 #include "variational/contact_problem.hpp"
 #include "variational/coulomb.hpp"
+#include "variational/pile.hpp"
 
 namespace saltus {
 namespace {
@@ -58,11 +59,10 @@ bool all_plastic(const ContactBlocks& W) {
 }
 
 /// Contacts that do not rebound are resolved all at once: no order, no convention.
-bool stop_together(const ContactBlocks& W, const CascadeOptions& options, std::vector<Vec3>& u,
+bool stop_together(const ContactBlocks& W, PileScratch& pile, std::vector<Vec3>& u,
                    std::vector<Vec3>& p, std::vector<FrictionImpulse>& impulses) {
   p.assign(u.size(), Vec3::Zero());
-  settle(W, options.max_impulses, u, p);
-  if (next_contact(W, ImpactOrder::index, u) >= 0) return false;
+  if (!(settle_pile(W, pile, u, p).excess <= small_residual)) return false;
   for (int i = 0; i < W.size(); ++i) {
     if (p[i][0] > 0) impulses.push_back({i, p[i]});
   }
@@ -89,7 +89,14 @@ void check_friction(const Eigen::Ref<const MatX>& N, const Eigen::Ref<const MatX
 
 bool collide(const ContactBlocks& W, const CascadeOptions& options, std::vector<Vec3>& u,
              std::vector<Vec3>& scratch, std::vector<FrictionImpulse>& impulses) {
-  if (all_plastic(W)) return stop_together(W, options, u, scratch, impulses);
+  PileScratch pile;
+  return collide(W, options, pile, u, scratch, impulses);
+}
+
+bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch& pile,
+             std::vector<Vec3>& u, std::vector<Vec3>& scratch,
+             std::vector<FrictionImpulse>& impulses) {
+  if (all_plastic(W)) return stop_together(W, pile, u, scratch, impulses);
   for (int count = 0;; ++count) {
     const int i = next_contact(W, options.order, u);
     if (i < 0) return true;

@@ -16,7 +16,8 @@
 
 #include "saltus/variational/friction.hpp"
 #include "variational/coulomb.hpp"
-#include "variational/small_system.hpp"
+#include "variational/pile.hpp"
+#include "variational/redundant.hpp"
 
 namespace saltus {
 
@@ -36,19 +37,13 @@ inline Vec3 slide_direction(const Grip& grip, double friction) {
 }
 
 /// Rates that do not follow from each other: a Cholesky factor of W that grows by a row each.
-class IndependentRates {
- public:
-  explicit IndependentRates(const ContactBlocks& W) : W_(W) {}
-  /// Takes one more. @return false where it follows from those taken, or there is no room
-  bool take(int contact, int rate);
+struct IndependentRates {
+  void start() { contact.clear(), rate.clear(), L.clear(); }
+  /// Takes one more. @return false where it follows from those taken
+  bool take(const ContactBlocks& W, int contact, int rate);
 
- private:
-  double entry(int contact, int rate, int k) const;  ///< with the k-th taken, of W made symmetric
-
-  const ContactBlocks& W_;
-  std::array<int, most_constraints> contact_, rate_;
-  int count_ = 0;
-  SmallMat L_;
+  std::vector<int> contact, rate;
+  std::vector<double> L;  ///< lower triangle by rows
 };
 
 /// What an impulse was in the last arc, for a guess.
@@ -60,7 +55,21 @@ struct GripMemory {
   int flight = -1;                  ///< its number; an older one is no guess
 };
 
-/// Room for most_constraints contacts.
+/// One unknown of `polish`: an impulse at a contact along a direction, and the rate that it ends.
+struct PolishUnknown {
+  int contact;
+  int rate;
+  Vec3 along;
+};
+
+struct PolishScratch {
+  std::vector<PolishUnknown> unknown;
+  std::vector<Vec3> change;
+  IndependentRates rates;
+  RedundantSystem system;
+};
+
+/// Room for some contacts; more grow once.
 void reserve_blocks(ContactBlocks& W);
 
 /// What a node or a flight keeps of friction; empty where no materials have any.
@@ -71,15 +80,15 @@ struct FrictionScratch {
   std::vector<Vec3> u, p;
   std::vector<int> contact;  ///< of each block: an index in the node's or flight's list
   std::vector<FrictionImpulse> impulses;
+  PileScratch pile;
+  PolishScratch polish;
   std::vector<GripMemory> memory;  ///< (pool), of a node
+  double residual = 0;             ///< of Coulomb's law, the largest of a step's closing half kicks
   int flight = 0;                  ///< the number of the flight that leaves the node
 };
 
 /// u = 0 to rounding where contacts are pressed, see above. u and p stay as they are where that is
-/// out of reach: too many contacts, or impulses that would leave their cones.
-void polish(const ContactBlocks& W, std::vector<Vec3>& u, std::vector<Vec3>& p);
-
-/// Gauss-Seidel sweeps at most: redundant contacts gain a digit in 5 to 50.
-inline constexpr int most_sweeps = 2000;
+/// out of reach: impulses would leave their cones.
+void polish(const ContactBlocks& W, PolishScratch& s, std::vector<Vec3>& u, std::vector<Vec3>& p);
 
 }  // namespace saltus

@@ -104,6 +104,7 @@ Node::Node(const ModelData& model)
   contacts_on.resize(trees.of.size());
   for (auto& each : contacts_on) each.reserve(std::min(reserved, most_on_a_tree));
   impulses.reserve(impulses_reserved);
+  closing.reserve(reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
   restitution.setOnes(static_cast<Eigen::Index>(reserved));
@@ -177,7 +178,10 @@ void settle_held_contacts(const ModelData& model, Node& node) {
     if (lambda.minCoeff(&worst) >= 0) break;
     std::swap(held[worst], held[count - 1]);
   }
-  for (int i = 0; i < count; ++i) apply(node, held[i], lambda[i]);
+  for (int i = 0; i < count; ++i) {
+    apply(node, held[i], lambda[i]);
+    node.closing.push_back({node.contacts[held[i]].pair, lambda[i], Vec3::Zero()});
+  }
   refresh_motions(node);
 }
 

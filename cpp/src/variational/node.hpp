@@ -72,7 +72,8 @@ struct Node {
   CascadeScratch cascade;
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
-  std::vector<int> silent;  ///< pairs with an entry in `sunk`
+  std::vector<ContactImpulse> closing;  ///< of held contacts, until told; `pair` by place
+  std::vector<int> silent;              ///< pairs with an entry in `sunk`
   double total_mass = 0;
   double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
@@ -86,6 +87,11 @@ Contact::Motion motion_of(double u, double epsilon_u);
 
 /// Writes u, epsilon_u and motion from n and the node's v. Needs typical_speed.
 void classify(const Node& node, double speed, double relative, Contact& c);
+
+/// The friction of an impulse (lambda, beta) at a contact, in the world.
+inline Vec3 across(const Contact& c, const Vec3& p) {
+  return c.friction > 0 ? Vec3(p[1] * c.t_W[0] + p[2] * c.t_W[1]) : Vec3(Vec3::Zero());
+}
 
 /// A speed of the whole model, [m/s].
 double typical_speed(const ModelData& model, const StepOptions& options, const Node& node);

@@ -1,4 +1,6 @@
 // Friction at a node: impacts, and the closing half kick of sustained contacts.
+#include <algorithm>
+
 #include "saltus/collision/slip.hpp"
 #include "variational/node.hpp"
 
@@ -11,15 +13,6 @@ const ContactVector& column(const Contact& c, int k) {
   return k == 0 ? c.column : c.t_column[k - 1];
 }
 int rates(const Contact& c) { return c.friction > 0 ? 3 : 1; }
-
-bool share_a_tree(const ContactVector& x, const ContactVector& y) {
-  for (const ContactVector::Part& a : x.part) {
-    for (const ContactVector::Part& b : y.part) {
-      if (a.tree >= 0 && a.tree == b.tree) return true;
-    }
-  }
-  return false;
-}
 
 Mat3 block_of(const Contact& at, const Contact& by) {
   Mat3 block = Mat3::Zero();
@@ -104,15 +97,14 @@ bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node
   for (int i = 0; i < node.touching; ++i) s.contact.push_back(i);
   set_blocks(model, node);
   s.impulses.clear();
-  if (!collide(s.W, options, s.u, s.p, s.impulses)) return false;
+  if (!collide(s.W, options, s.pile, s.u, s.p, s.impulses)) return false;
   for (const FrictionImpulse& each : s.impulses) {
     const Contact& c = node.contacts[each.contact];
     apply(c, each.p, node);
     node.impulses.push_back({each.contact, each.p[0]});
     if (c.friction == 0) continue;
-    const Vec3 tangential = each.p[1] * c.t_W[0] + each.p[2] * c.t_W[1];
     report.friction.push_back(
-        {static_cast<int>(report.impulses.size() + node.impulses.size()) - 1, tangential});
+        {static_cast<int>(report.impulses.size() + node.impulses.size()) - 1, across(c, each.p)});
   }
   return true;
 }
@@ -139,10 +131,12 @@ bool settle_with_friction(const ModelData& model, Node& node) {
       s.u[s.W.contact[e]] += s.W.block[e] * memory.p;
     }
   }
-  settle(s.W, most_sweeps, s.u, s.p);
-  polish(s.W, s.u, s.p);
+  s.residual = std::max(s.residual, settle_pile(s.W, s.pile, s.u, s.p).excess);
+  polish(s.W, s.polish, s.u, s.p);
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
-    apply(node.contacts[s.contact[i]], s.p[i], node);
+    const Contact& c = node.contacts[s.contact[i]];
+    apply(c, s.p[i], node);
+    node.closing.push_back({c.pair, s.p[i][0], across(c, s.p[i])});
   }
   return true;
 }

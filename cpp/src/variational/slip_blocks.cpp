@@ -1,10 +1,11 @@
 #include "variational/slip_blocks.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "saltus/collision/slip.hpp"
-#include "variational/impact_time.hpp"
 
 namespace saltus {
 namespace {
@@ -19,66 +20,51 @@ const ArcConstraint* find_stick(const Flight& f, int place, int tangent) {
   return nullptr;
 }
 
-/// Rows and columns of one hold for the arc just solved; its rates and impulse.
-void linearise(const ModelData& model, const Node& node, int i, SlipRows& x, Flight& f) {
-  ArcConstraint& c = f.constraints[i];
+/// Rates of all holds at flight.arc.v. Needs the poses in the arc's middle.
+void set_rates(const ModelData& model, const Node& node, Flight& f) {
+  FrictionScratch& x = f.slip.friction;
   ArcScratch& s = f.scratch;
+  s.x = node.q + f.arc.tau * f.arc.v;
+  place_end(model, s.x, s);
+  x.u.resize(x.contact.size());
+  for (std::size_t i = 0; i < x.contact.size(); ++i) {
+    const ArcConstraint& c = f.constraints[x.contact[i]];
+    const Gap g = pair_gap_at_end(model, c.watched(), s);
+    x.u[i] = Vec3((g.phi - c.target) / f.arc.tau, 0, 0);
+    if (!(contact_of(node, c).friction > 0)) continue;
+    SlipRows& row = f.slip.row[i];
+    add_slide_rows(model, c, s, row.t0, row.t1);
+    x.u[i].tail<2>() << row.t0.dot(f.arc.v), row.t1.dot(f.arc.v);
+  }
+}
+
+/// J^-1 of the rows of a hold at the arc's start.
+void set_columns(const ModelData& model, const Node& node, ArcConstraint& c, SlipRows& x,
+                 ArcScratch& s) {
   const Contact& contact = contact_of(node, c);
-  const Gap g = pair_gap_at_end(model, c.watched(), s);
-  c.row.setZero();
-  add_gap_gradient(model.tree, s.kin_end, c.watched(), g, c.row);
   c.column.setZero();
   add(node.trees, 1, contact.n, c.column);
   solve(model.tree, model.packed, s.J, c.column);
-  Vec3 u((g.phi - c.target) / f.arc.tau, 0, 0);
-  if (contact.friction > 0) {
-    add_slide_rows(model, c, s, x.t0, x.t1);
-    u.tail<2>() << x.t0.dot(f.arc.v), x.t1.dot(f.arc.v);
-    x.column0.setZero();
-    x.column1.setZero();
-    add(node.trees, 1, contact.t[0], x.column0);
-    add(node.trees, 1, contact.t[1], x.column1);
-    solve(model.tree, model.packed, s.J, x.column0);
-    solve(model.tree, model.packed, s.J, x.column1);
-  }
-  f.slip.friction.u.push_back(u);
-  f.slip.friction.p.push_back(impulse_of(node, c, f));
-  f.slip.friction.W.friction.push_back(contact.friction);
-  f.slip.friction.W.rest.push_back(contact.epsilon_u);
+  if (!(contact.friction > 0)) return;
+  x.column0.setZero();
+  x.column1.setZero();
+  add(node.trees, 1, contact.t[0], x.column0);
+  add(node.trees, 1, contact.t[1], x.column1);
+  solve(model.tree, model.packed, s.J, x.column0);
+  solve(model.tree, model.packed, s.J, x.column1);
 }
 
-Mat3 block_of(const ArcConstraint& at, const SlipRows& row, bool at_slips, const ArcConstraint& by,
-              const SlipRows& column, bool by_slips) {
-  Mat3 block = Mat3::Zero();
-  block(0, 0) = at.row.dot(by.column);
-  if (by_slips) block.row(0).tail<2>() << at.row.dot(column.column0), at.row.dot(column.column1);
-  if (at_slips) block.col(0).tail<2>() << row.t0.dot(by.column), row.t1.dot(by.column);
-  if (at_slips && by_slips) {
-    block.bottomRightCorner<2, 2>() << row.t0.dot(column.column0), row.t0.dot(column.column1),
-        row.t1.dot(column.column0), row.t1.dot(column.column1);
-  }
-  return block;
-}
-
-/// The same of the rows at the arc's start.
-Mat3 start_block_of(const Node& node, const Contact& at, const ArcConstraint& by,
-                    const SlipRows& column, bool by_slips) {
+Mat3 block_of(const Node& node, const Contact& at, const Contact& by, const VecX& column,
+              const SlipRows& columns) {
   const std::array<const ContactVector*, 3> rows = {&at.n, &at.t[0], &at.t[1]};
-  const std::array<const VecX*, 3> columns = {&by.column, &column.column0, &column.column1};
+  const std::array<const VecX*, 3> x = {&column, &columns.column0, &columns.column1};
   Mat3 block = Mat3::Zero();
   for (int i = 0; i < (at.friction > 0 ? 3 : 1); ++i) {
-    for (int j = 0; j < (by_slips ? 3 : 1); ++j)
-      block(i, j) = dot(node.trees, *rows[i], *columns[j]);
+    for (int j = 0; j < (by.friction > 0 ? 3 : 1); ++j) {
+      block(i, j) = dot(node.trees, *rows[i], *x[j]);
+    }
   }
   return block;
-}
-
-/// An entry more of what an impulse at contact j does; its own block too.
-void push_block(int i, int j, const Mat3& block, ContactBlocks& W) {
-  if (i == j) W.own.push_back((block + block.transpose()) / 2);
-  if (block.isZero(0)) return;
-  W.contact.push_back(i);
-  W.block.push_back(block);
 }
 
 void clear_blocks(ContactBlocks& W) {
@@ -113,39 +99,74 @@ void add_slide_rows(const ModelData& model, const ArcConstraint& c, ArcScratch& 
   add_motion_gradient(model.tree, s.kin_end, c.watched(), P, t.t1, t1);
 }
 
-bool set_slip_blocks(const ModelData& model, const StepOptions& options, Node& node, Flight& f) {
+Lawlessness set_slip_rates(const ModelData& model, const StepOptions& options, const Node& node,
+                           Flight& f) {
+  FrictionScratch& x = f.slip.friction;
+  f.slip.p = node.p;
+  f.slip.size = node.p.cwiseAbs();
+  for (int i = 0; i < f.active; ++i) {
+    const ArcConstraint& c = f.constraints[i];
+    if (c.kind != Kind::hold) f.slip.p += c.lambda * c.n;
+  }
+  for (std::size_t i = 0; i < x.contact.size(); ++i) {
+    const Contact& contact = contact_of(node, f.constraints[x.contact[i]]);
+    add(node.trees, x.p[i][0], contact.n, f.slip.p);
+    add_sizes(node.trees, x.p[i][0], contact.n, f.slip.size);
+    for (int k = 0; k < 2 && contact.friction > 0; ++k) {
+      add(node.trees, x.p[i][k + 1], contact.t[k], f.slip.p);
+      add_sizes(node.trees, x.p[i][k + 1], contact.t[k], f.slip.size);
+    }
+  }
+  const ArcProblem problem{node.q, f.slip.p, f.arc.tau, {}, whole_step(options)};
+  const double momentum = momentum_residual(model, problem, f.arc.v, f.scratch);
+  Lawlessness out{momentum, momentum};
+  if (std::isfinite(momentum)) {  // forces cancel, their rounding does not
+    constexpr double tiny = std::numeric_limits<double>::min();
+    const auto size = f.scratch.scale.array() + f.slip.size.array() + tiny;
+    out.residual = out.excess = (f.scratch.r.array().abs() / size).maxCoeff();
+  }
+  f.arc.residual = out.residual;
+  set_rates(model, node, f);
+  if (x.W.size() != static_cast<int>(x.contact.size())) return out;
+  const Lawlessness law = lawlessness(x.W, x.u, x.p);
+  return {std::max(out.residual, law.residual), std::max(out.excess, law.excess)};
+}
+
+bool set_slip_blocks(const ModelData& model, const Node& node, Flight& f) {
   ArcScratch& s = f.scratch;
   FrictionScratch& x = f.slip.friction;
-  const ArcProblem problem = arc_problem(options, f.arc.tau, node, f);
-  if (!std::isfinite(momentum_residual(model, problem, f.arc.v, s))) return false;
   set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, f.arc.tau, s.J)) return false;
-  s.dv = s.r;  // not 0 where a hold was let go since the arc was solved
+  s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
   f.arc.v += s.dv;
-  s.x = node.q + f.arc.tau * f.arc.v;
-  place_end(model, s.x, s);
+  set_rates(model, node, f);
   ContactBlocks& W = x.W;
-  ContactBlocks& at_start = f.slip.at_start;
   clear_blocks(W);
-  clear_blocks(at_start);
-  for (auto* each : {&x.u, &x.p}) each->clear();
   const int m = static_cast<int>(x.contact.size());
-  for (int i = 0; i < m; ++i) linearise(model, node, x.contact[i], f.slip.row[i], f);
+  for (int i = 0; i < m; ++i) {
+    ArcConstraint& c = f.constraints[x.contact[i]];
+    set_columns(model, node, c, f.slip.row[i], s);
+    W.friction.push_back(contact_of(node, c).friction);
+    // a hundredth of what touches is closed, over the arc
+    W.rest.push_back(std::max(contact_of(node, c).epsilon_u, 1e-2 * c.pair->touch / f.arc.tau));
+  }
   for (int j = 0; j < m; ++j) {
     const ArcConstraint& by = f.constraints[x.contact[j]];
-    const SlipRows& column = f.slip.row[j];
+    const Contact& by_contact = contact_of(node, by);
     W.start.push_back(static_cast<int>(W.contact.size()));
-    at_start.start.push_back(static_cast<int>(at_start.contact.size()));
     for (int i = 0; i < m; ++i) {
       const ArcConstraint& at = f.constraints[x.contact[i]];
-      const bool at_slips = W.friction[i] > 0, by_slips = W.friction[j] > 0;
-      push_block(i, j, block_of(at, f.slip.row[i], at_slips, by, column, by_slips), W);
-      push_block(i, j, start_block_of(node, contact_of(node, at), by, column, by_slips), at_start);
+      const Contact& at_contact = contact_of(node, at);
+      if (!share_a_tree(at_contact.n, by_contact.n)) continue;
+      const Mat3 one = block_of(node, at_contact, by_contact, by.column, f.slip.row[j]);
+      const Mat3 other = block_of(node, by_contact, at_contact, at.column, f.slip.row[i]);
+      W.contact.push_back(i);
+      W.block.push_back((one + other.transpose()) / 2);
+      if (i == j) W.own.push_back(W.block.back());
     }
   }
   W.start.push_back(static_cast<int>(W.contact.size()));
-  at_start.start.push_back(static_cast<int>(at_start.contact.size()));
   return true;
 }
 

@@ -1,7 +1,9 @@
-// What impulses at the holds of a flight change in its arc: W = C J^-1 [N; T]^T, and what they are.
+// What impulses at the holds of a flight change in its arc, and what they are.
 //
-// C are the rows that the arc's constraints have: phi_q at its end, T in its middle. J is the
-// arc's Newton matrix, N and T the rows at its start, where the forces act.
+// The rates u are those of the arc's constraints: of the gap by its end, and T v in its middle. An
+// impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N; T]^T, with J the
+// arc's Newton matrix and C the rows where the rates are. W has [N; T] for C, and is made
+// symmetric: which is O(h) off where bodies turn, and who sticks and slides is found in rounds.
 #pragma once
 
 #include "variational/flight.hpp"
@@ -19,10 +21,15 @@ Vec3 impulse_of(const Node& node, const ArcConstraint& hold, Flight& flight);
 void add_slide_rows(const ModelData& model, const ArcConstraint& hold, ArcScratch& s, VecX& t0,
                     VecX& t1);
 
-/// Writes W, at_start, u (rates at the arc's end and middle), p and flight.slip.row for the holds
-/// in flight.slip.friction.contact. One Newton step of flight.arc.v goes before.
+/// Of the holds in flight.slip.friction.contact with the impulses in flight.slip.friction.p: writes
+/// their rates u at flight.arc.v, and flight.slip.p, the momentum that all forces have been added to.
+/// @return how far they are from the arc's equation and from Coulomb's law; of the latter not at
+/// first, when W has not been written
+Lawlessness set_slip_rates(const ModelData& model, const StepOptions& options, const Node& node,
+                           Flight& flight);
+
+/// Writes W and flight.slip.row. One Newton step of flight.arc.v and u goes before.
 /// @return false where there is no number
-bool set_slip_blocks(const ModelData& model, const StepOptions& options, Node& node,
-                     Flight& flight);
+bool set_slip_blocks(const ModelData& model, const Node& node, Flight& flight);
 
 }  // namespace saltus

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "variational/check_options.hpp"
+#include "variational/contact_report.hpp"
 #include "variational/flight_friction.hpp"
 #include "variational/impact_time.hpp"
 
@@ -21,6 +22,7 @@ struct Stepper::Impl {
     report.impulses.reserve(1024);
     if (node.friction.any) report.friction.reserve(1024);
     report.settlings.reserve(64);
+    report.contacts.reserve(64);
   }
 
   void step(State& state);
@@ -70,10 +72,12 @@ void Stepper::forget() { impl_->last_is_valid = false; }
 // The step: fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step(State& state) {
   report.iterations = report.arcs = report.sustained = 0;
-  report.residual = 0;
+  report.residual = node.friction.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
   report.friction.clear();
+  report.contacts.clear();
+  node.closing.clear();
   report.settlings.clear();
   report.certificates.clear();
   flight.settlings.clear();
@@ -148,6 +152,7 @@ void Stepper::Impl::fly_one_arc(double left) {
   }
   ++report.arcs;
   report.sustained += count_holds(flight);
+  tell_holds(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
 }
 
@@ -160,6 +165,11 @@ void Stepper::Impl::arrive(double t) {
     node.v = flight.arc.v;
     if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
     settle_held_contacts(*model, node);
+    tell_closing(node, report);
+    if (!(node.friction.residual <= small_residual)) {
+      flight.closing = node.contacts[node.friction.contact[0]].pair;
+      fail(FlightOutcome::friction_not_settled);
+    }
   }
   if (!impact_pending(node)) return;
   if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();

@@ -19,7 +19,8 @@ struct SALTUS_EXPORT Trajectory {
   VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
   std::vector<Impact> impacts;  ///< in order of time
   std::vector<Impulse> impulses;
-  std::vector<Settling> settlings;        ///< in order of time
+  std::vector<TangentialImpulse> friction;  ///< of those of `impulses` that had any
+  std::vector<Settling> settlings;          ///< in order of time
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
   long iterations = 0;                    ///< Newton iterations in all
   double residual = 0;                    ///< [largest momentum] the worst of any step

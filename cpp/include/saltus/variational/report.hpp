@@ -36,6 +36,14 @@ struct Settling {
   int pair;  ///< index in model->pairs
 };
 
+/// What held a pair closed over a step: the sum of its impulses in arcs and between them, those of
+/// impacts left aside. By the step h it is the mean force.
+struct ContactImpulse {
+  int pair;       ///< index in model->pairs
+  double lambda;  ///< [N s] along the normal
+  Vec3 p_W;       ///< [N s] friction's, on the pair's first shape, across the normal
+};
+
 /// Written by Stepper; valid until its next step.
 struct StepReport {
   int iterations = 0;   ///< Newton iterations, over all arcs tried
@@ -47,6 +55,7 @@ struct StepReport {
   std::vector<Settling> settlings;
   std::vector<std::string> certificates;    ///< (impacts), "" of single contacts; if asked for
   std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
+  std::vector<ContactImpulse> contacts;     ///< of pairs that were held closed, each once
 };
 
 }  // namespace saltus

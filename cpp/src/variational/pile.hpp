@@ -1,0 +1,70 @@
+// Coulomb's law at all contacts of a pile together, by a proximal Newton method.
+//
+// With rates u = u_0 + W p (friction.hpp) the law is, at every contact and for every rho > 0,
+//
+//   p = P(p - rho u),   P(a) = (lambda, beta):  lambda = max(a_n, 0),  beta = a_t cut to mu lambda
+//
+// (P. Alart & A. Curnier, "A mixed formulation for frictional contact problems prone to Newton like
+// solution methods", CMAME 92, 1991). Piles are redundant: W has no inverse, and p is not unique.
+// So each round solves the same law with contacts that give way a little, by 1/rho, from p_k on:
+//
+//   p_k+1 = P(p_k - rho (u_0 + W p_k+1))      (the proximal point method, R. T. Rockafellar 1976)
+//
+// which has one solution where rho is small, and whose rounds end where the law holds exactly. With
+// W = L L^T and z = L^T p the unknowns are as few as the rates that do not follow from others:
+//
+//   F(z) = z - L^T P(p_k - rho (u_0 + L z)) = 0,   F' = 1 + rho L^T P' L
+//
+// by Newton's method with backtracking on |F|. rho grows where that ends, and shrinks where not.
+// Impulses and rates are scaled by sqrt(W_ii), so that light and heavy bodies count alike.
+#pragma once
+
+#include <vector>
+
+#include "saltus/variational/friction.hpp"
+
+namespace saltus {
+
+/// Room for settle_pile, which grows with the largest pile.
+struct PileScratch {
+  std::vector<int> island, order, place;  ///< (m) union-find; contacts by island; in its island
+  // of one island with k contacts and r independent rates
+  std::vector<double> scale, friction, rest;  ///< (k)
+  std::vector<int> first, last;            ///< (k) columns of L that the rows of a contact have
+  std::vector<int> pivot;                  ///< (r) the rate that a column of L was made for
+  std::vector<double> L;                   ///< (3 k, r) by rows
+  std::vector<double> row;                 ///< (3, 3 k) of W
+  std::vector<double> H, DL;               ///< (r, r) F', (3, r)
+  std::vector<Vec3> u, p, q, base, trial;  ///< (k) scaled rates and impulses
+  std::vector<double> z, z_new, dz, F, F_new;  ///< (r)
+};
+
+/// How far from Coulomb's law: |p - P(p - u)|, as a part of the impulses and rates that there are.
+struct Lawlessness {
+  double residual = 0;
+  double excess = 0;  ///< likewise, of what is more than W.rest of a contact
+};
+
+struct Settled : Lawlessness {
+  int iterations = 0;  ///< Newton's, of all islands
+};
+
+/// Of rates u that p has been added to.
+Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
+                        const std::vector<Vec3>& p);
+
+/// @param W symmetric
+/// @param u (m) rates with p in place, changed; @param p (m) guess in, solution out
+/// @return what is left; has settled where excess <= small_residual
+Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
+                    std::vector<Vec3>& p);
+
+/// `collide` (friction.hpp) with room that stays.
+bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch& pile,
+             std::vector<Vec3>& u, std::vector<Vec3>& scratch,
+             std::vector<FrictionImpulse>& impulses);
+
+/// Rounding of rates that impulses hold against each other is far below; so is what would be felt.
+inline constexpr double small_residual = 1e-9;
+
+}  // namespace saltus

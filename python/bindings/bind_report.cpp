@@ -1,0 +1,176 @@
+// Variational floor: what happened in a step.
+#include "named_report.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+constexpr auto impact_doc = R"(All impulses at one instant, with pairs by name.
+
+Attributes
+----------
+t : float
+    [s]
+pairs : list of str
+    Names of the pairs, in the order of the impulses; a pair may occur more than once.
+lambdas : numpy.ndarray, shape (impulses,)
+    [N s] the impulses, `p += lambda * phi_q`.
+tangentials : numpy.ndarray, shape (impulses, 3)
+    [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+contacts : int
+    Pairs that touched.
+law : ImpactLaw
+    The law that was used.
+fallback : bool
+    Another law was asked for and nodal_energy used, an impulse being too weak for it.
+certificate : str
+    Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
+    (`certify`), and of a single contact.
+)";
+
+constexpr auto report_doc = R"(What happened in a step.
+
+Attributes
+----------
+iterations : int
+    Newton iterations over all arcs tried.
+arcs : int
+    Arcs that the step is made of; 1 without impacts.
+sustained : int
+    Contacts of its arcs that were held closed by a force.
+residual : float
+    [largest momentum] of the worst arc.
+impacts : list of Impact
+settlings : list of (float, str)
+    Time [s] and name of each pair that bounced ever lower and has come to rest.
+contacts : list of ContactImpulse
+    What held pairs closed over the step, impacts left aside.
+)";
+
+constexpr auto contact_doc = R"(What held a pair closed over a step: its impulses, but for those of impacts.
+
+Divided by the step `h` these are its mean forces.
+
+Attributes
+----------
+pair : str
+    Name of the pair.
+normal : float
+    [N s] along the normal, >= 0.
+tangential : numpy.ndarray, shape (3,)
+    [N s] friction on the pair's first shape, in the world; 0 without friction.
+)";
+
+NamedImpact with_names(const Model& model, const StepReport& report, const Impact& impact) {
+  NamedImpact out{impact.t,
+                  {},
+                  VecX(impact.count),
+                  MatX::Zero(impact.count, 3),
+                  impact.contacts,
+                  impact.law,
+                  impact.fallback,
+                  ""};
+  for (int i = 0; i < impact.count; ++i) {
+    const Impulse& impulse = report.impulses[impact.first + i];
+    out.pairs.push_back(model.pair_name(impulse.pair));
+    out.lambdas[i] = impulse.lambda;
+  }
+  for (const TangentialImpulse& each : report.friction) {
+    const int i = each.impulse - impact.first;
+    if (i >= 0 && i < impact.count) out.tangentials.row(i) = each.p_W;
+  }
+  return out;
+}
+
+MatX to_tangentials(const std::optional<MatX>& given, Eigen::Index impulses) {
+  if (!given) return MatX::Zero(impulses, 3);
+  if (given->rows() == impulses && given->cols() == 3) return *given;
+  throw ModelError("tangentials is (" + std::to_string(given->rows()) + ", " +
+                   std::to_string(given->cols()) + "); there are " + std::to_string(impulses) +
+                   " impulses, three numbers each");
+}
+
+void bind_impact(py::module_& m) {
+  using I = NamedImpact;
+  py::class_<I>(m, "Impact", impact_doc)
+      .def(py::init([](double t, std::vector<std::string> pairs, const VecX& lambdas, int contacts,
+                       ImpactLaw law, bool fallback, const std::string& certificate,
+                       const std::optional<MatX>& tangentials) {
+             return I{t,   std::move(pairs), lambdas,  to_tangentials(tangentials, lambdas.size()),
+                      contacts, law,         fallback, certificate};
+           }),
+           py::arg("t"), py::arg("pairs"), py::arg("lambdas"), py::kw_only(), py::arg("contacts"),
+           py::arg("law"), py::arg("fallback"), py::arg("certificate") = "",
+           py::arg("tangentials") = std::nullopt)
+      .def_readonly("t", &I::t)
+      .def_readonly("pairs", &I::pairs)
+      .def_readonly("lambdas", &I::lambdas)
+      .def_readonly("tangentials", &I::tangentials)
+      .def_readonly("contacts", &I::contacts)
+      .def_readonly("law", &I::law)
+      .def_readonly("fallback", &I::fallback)
+      .def_readonly("certificate", &I::certificate)
+      .def("__repr__", [](const I& self) {
+        return "Impact(t=" + py::repr(py::float_(self.t)).cast<std::string>() +
+               ", pairs=" + py::repr(py::cast(self.pairs)).cast<std::string>() +
+               ", lambdas=" + py::str(py::cast(self.lambdas).attr("tolist")()).cast<std::string>() +
+               ")";
+      });
+}
+
+void bind_contact(py::module_& m) {
+  using C = NamedContact;
+  py::class_<C>(m, "ContactImpulse", contact_doc)
+      .def_readonly("pair", &C::pair)
+      .def_readonly("normal", &C::normal)
+      .def_readonly("tangential", &C::tangential)
+      .def("__repr__", [](const C& self) {
+        return "ContactImpulse(pair=" + py::repr(py::cast(self.pair)).cast<std::string>() +
+               ", normal=" + py::repr(py::float_(self.normal)).cast<std::string>() +
+               ", tangential=" +
+               py::str(py::cast(self.tangential).attr("tolist")()).cast<std::string>() + ")";
+      });
+}
+
+void bind_step_report(py::module_& m) {
+  using R = NamedReport;
+  py::class_<R>(m, "StepReport", report_doc)
+      .def_readonly("iterations", &R::iterations)
+      .def_readonly("arcs", &R::arcs)
+      .def_readonly("sustained", &R::sustained)
+      .def_readonly("residual", &R::residual)
+      .def_readonly("impacts", &R::impacts)
+      .def_readonly("settlings", &R::settlings)
+      .def_readonly("contacts", &R::contacts)
+      .def("__repr__", [](const R& self) {
+        return "StepReport(iterations=" + std::to_string(self.iterations) +
+               ", arcs=" + std::to_string(self.arcs) +
+               ", impacts=" + py::repr(py::cast(self.impacts)).cast<std::string>() + ")";
+      });
+}
+
+}  // namespace
+
+NamedReport with_names(const Model& model, const StepReport& r) {
+  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, {}, {}, {}};
+  for (const Impact& impact : r.impacts) {
+    out.impacts.push_back(with_names(model, r, impact));
+  }
+  for (std::size_t i = 0; i < r.certificates.size(); ++i) {
+    out.impacts[i].certificate = r.certificates[i];
+  }
+  for (const Settling& each : r.settlings) {
+    out.settlings.emplace_back(each.t, model.pair_name(each.pair));
+  }
+  for (const ContactImpulse& each : r.contacts) {
+    out.contacts.push_back({model.pair_name(each.pair), each.lambda, each.p_W});
+  }
+  return out;
+}
+
+void bind_report(py::module_& m) {
+  bind_impact(m);
+  bind_contact(m);
+  bind_step_report(m);
+}
+
+}  // namespace saltus::bindings

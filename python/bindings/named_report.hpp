@@ -1,0 +1,42 @@
+// A step's report with pairs by name, as Python has it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "saltus/variational/stepper.hpp"
+
+namespace saltus::bindings {
+
+/// An Impact with its pairs by name and its own impulses.
+struct NamedImpact {
+  double t;
+  std::vector<std::string> pairs;
+  VecX lambdas;
+  MatX tangentials;  ///< (impulses, 3)
+  int contacts;
+  ImpactLaw law;
+  bool fallback;
+  std::string certificate;
+};
+
+struct NamedContact {
+  std::string pair;
+  double normal;
+  Vec3 tangential;
+};
+
+/// Stepper's own report is overwritten by its next step; Python keeps copies.
+struct NamedReport {
+  int iterations, arcs, sustained;
+  double residual;
+  std::vector<NamedImpact> impacts;
+  std::vector<std::pair<double, std::string>> settlings;
+  std::vector<NamedContact> contacts;
+};
+
+NamedReport with_names(const Model& model, const StepReport& report);
+
+}  // namespace saltus::bindings
