@@ -1,5 +1,6 @@
 #include "variational/flight.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
@@ -29,6 +30,8 @@ bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   if (f.active == static_cast<int>(f.constraints.size())) return false;
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
+  // many that touch cannot all be brought to 0: with friction they stay where rounding left them
+  if (node.friction.any) c.target = std::clamp(contact.phi, -node.pool[pair].touch / 2, 0.0);
   c.pair = &node.pool[pair];
   c.grip = {};
   c.carried.setZero();

@@ -13,6 +13,7 @@ constexpr double settled = 1e-13;      ///< residual that is rounding
 constexpr double dependent = 1e-10;    ///< part of a rate's own W that does not follow from others
 constexpr int most_rounds = 80;        ///< 5 to 20 are usual
 constexpr int most_newton = 25;        ///< a round; 2 to 10 are usual
+constexpr int most_idle = 6;           ///< rounds that halve nothing
 constexpr double least_rho = 1e-4, most_rho = 1e4;
 
 using Row = Eigen::Map<Eigen::RowVectorXd>;
@@ -325,7 +326,8 @@ Settled Island::settle(std::vector<Vec3>& u, std::vector<Vec3>& p) {
 Settled Island::settle_scaled() {
   Settled out{residual(), 0};
   if (out.residual <= settled) return out;
-  double rho = 1;
+  double rho = 1, best = out.residual;
+  int idle = 0;
   factorize();
   for (int round = 0; round < most_rounds && out.residual > settled && rho >= least_rho; ++round) {
     set_z();
@@ -348,9 +350,13 @@ Settled Island::settle_scaled() {
     for (int i = 0; i < k_; ++i) s_.trial[i] = s_.q[i] - s_.p[i];
     feel(s_.trial);
     s_.p.swap(s_.q);
-    const double before = out.residual;
     static_cast<Lawlessness&>(out) = residual();
-    if (out.residual < 1e-11 && out.residual > before / 2) break;
+    if (out.residual < best / 2) {
+      best = out.residual;
+      idle = 0;
+    } else if (++idle == most_idle || out.residual < 1e-11) {
+      break;  // rounding, or rates that no impulses can end
+    }
     rho = std::min(4 * rho, most_rho);
   }
   return out;

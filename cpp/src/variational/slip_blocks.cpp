@@ -28,8 +28,10 @@ void set_rates(const ModelData& model, const Node& node, Flight& f) {
   place_end(model, s.x, s);
   x.u.resize(x.contact.size());
   for (std::size_t i = 0; i < x.contact.size(); ++i) {
-    const ArcConstraint& c = f.constraints[x.contact[i]];
+    ArcConstraint& c = f.constraints[x.contact[i]];
     const Gap g = pair_gap_at_end(model, c.watched(), s);
+    c.row.setZero();
+    add_gap_gradient(model.tree, s.kin_end, c.watched(), g, c.row);
     x.u[i] = Vec3((g.phi - c.target) / f.arc.tau, 0, 0);
     if (!(contact_of(node, c).friction > 0)) continue;
     SlipRows& row = f.slip.row[i];
@@ -38,31 +40,25 @@ void set_rates(const ModelData& model, const Node& node, Flight& f) {
   }
 }
 
-/// J^-1 of the rows of a hold at the arc's start.
-void set_columns(const ModelData& model, const Node& node, ArcConstraint& c, SlipRows& x,
+/// J^-1 of the rows of a hold.
+void set_columns(const ModelData& model, bool slips, ArcConstraint& c, SlipRows& x,
                  ArcScratch& s) {
-  const Contact& contact = contact_of(node, c);
-  c.column.setZero();
-  add(node.trees, 1, contact.n, c.column);
+  c.column = c.row;
   solve(model.tree, model.packed, s.J, c.column);
-  if (!(contact.friction > 0)) return;
-  x.column0.setZero();
-  x.column1.setZero();
-  add(node.trees, 1, contact.t[0], x.column0);
-  add(node.trees, 1, contact.t[1], x.column1);
+  if (!slips) return;
+  x.column0 = x.t0;
+  x.column1 = x.t1;
   solve(model.tree, model.packed, s.J, x.column0);
   solve(model.tree, model.packed, s.J, x.column1);
 }
 
-Mat3 block_of(const Node& node, const Contact& at, const Contact& by, const VecX& column,
-              const SlipRows& columns) {
-  const std::array<const ContactVector*, 3> rows = {&at.n, &at.t[0], &at.t[1]};
-  const std::array<const VecX*, 3> x = {&column, &columns.column0, &columns.column1};
+Mat3 block_of(const ArcConstraint& at, const SlipRows& row, bool at_slips, const ArcConstraint& by,
+              const SlipRows& column, bool by_slips) {
+  const std::array<const VecX*, 3> rows = {&at.row, &row.t0, &row.t1};
+  const std::array<const VecX*, 3> columns = {&by.column, &column.column0, &column.column1};
   Mat3 block = Mat3::Zero();
-  for (int i = 0; i < (at.friction > 0 ? 3 : 1); ++i) {
-    for (int j = 0; j < (by.friction > 0 ? 3 : 1); ++j) {
-      block(i, j) = dot(node.trees, *rows[i], *x[j]);
-    }
+  for (int i = 0; i < (at_slips ? 3 : 1); ++i) {
+    for (int j = 0; j < (by_slips ? 3 : 1); ++j) block(i, j) = rows[i]->dot(*columns[j]);
   }
   return block;
 }
@@ -146,21 +142,21 @@ bool set_slip_blocks(const ModelData& model, const Node& node, Flight& f) {
   const int m = static_cast<int>(x.contact.size());
   for (int i = 0; i < m; ++i) {
     ArcConstraint& c = f.constraints[x.contact[i]];
-    set_columns(model, node, c, f.slip.row[i], s);
     W.friction.push_back(contact_of(node, c).friction);
+    set_columns(model, W.friction[i] > 0, c, f.slip.row[i], s);
     // a hundredth of what touches is closed, over the arc
     W.rest.push_back(std::max(contact_of(node, c).epsilon_u, 1e-2 * c.pair->touch / f.arc.tau));
   }
   for (int j = 0; j < m; ++j) {
     const ArcConstraint& by = f.constraints[x.contact[j]];
-    const Contact& by_contact = contact_of(node, by);
+    const bool by_slips = W.friction[j] > 0;
     W.start.push_back(static_cast<int>(W.contact.size()));
     for (int i = 0; i < m; ++i) {
       const ArcConstraint& at = f.constraints[x.contact[i]];
-      const Contact& at_contact = contact_of(node, at);
-      if (!share_a_tree(at_contact.n, by_contact.n)) continue;
-      const Mat3 one = block_of(node, at_contact, by_contact, by.column, f.slip.row[j]);
-      const Mat3 other = block_of(node, by_contact, at_contact, at.column, f.slip.row[i]);
+      if (!share_a_tree(contact_of(node, at).n, contact_of(node, by).n)) continue;
+      const bool at_slips = W.friction[i] > 0;
+      const Mat3 one = block_of(at, f.slip.row[i], at_slips, by, f.slip.row[j], by_slips);
+      const Mat3 other = block_of(by, f.slip.row[j], by_slips, at, f.slip.row[i], at_slips);
       W.contact.push_back(i);
       W.block.push_back((one + other.transpose()) / 2);
       if (i == j) W.own.push_back(W.block.back());

@@ -1,9 +1,9 @@
 // What impulses at the holds of a flight change in its arc, and what they are.
 //
-// The rates u are those of the arc's constraints: of the gap by its end, and T v in its middle. An
-// impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N; T]^T, with J the
-// arc's Newton matrix and C the rows where the rates are. W has [N; T] for C, and is made
-// symmetric: which is O(h) off where bodies turn, and who sticks and slides is found in rounds.
+// The rates u are those of the arc's constraints, with rows C: of the gap by its end, and T v in its
+// middle. An impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N; T]^T, with
+// J the arc's Newton matrix. W is C J^-1 C^T, made symmetric: what follows from others in u does so
+// in W too, and that it is O(h) off where bodies turn is mended by the rounds that solve the law.
 #pragma once
 
 #include "variational/flight.hpp"
