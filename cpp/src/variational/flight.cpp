@@ -31,7 +31,7 @@ bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
   // many that touch cannot all be brought to 0: with friction they stay where rounding left them
-  if (node.friction.any) c.target = std::clamp(contact.phi, -node.pool[pair].touch / 2, 0.0);
+  if (node.friction.any) c.target = std::min(contact.phi, 0.0);
   c.pair = &node.pool[pair];
   c.grip = {};
   c.carried.setZero();

@@ -13,8 +13,8 @@ constexpr double settled = 1e-13;      ///< residual that is rounding
 constexpr double dependent = 1e-10;    ///< part of a rate's own W that does not follow from others
 constexpr int most_rounds = 80;        ///< 5 to 20 are usual
 constexpr int most_newton = 25;        ///< a round; 2 to 10 are usual
-constexpr int most_idle = 6;           ///< rounds that halve nothing
-constexpr double least_rho = 1e-4, most_rho = 1e4;
+constexpr int most_idle = 3;           ///< stiff rounds that halve nothing
+constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e8;
 
 using Row = Eigen::Map<Eigen::RowVectorXd>;
 
@@ -326,7 +326,8 @@ Settled Island::settle(std::vector<Vec3>& u, std::vector<Vec3>& p) {
 Settled Island::settle_scaled() {
   Settled out{residual(), 0};
   if (out.residual <= settled) return out;
-  double rho = 1, best = out.residual;
+  // far from the law softly, near it not
+  double rho = std::clamp(1e-3 / out.residual, 1.0, 1e4), best = out.residual;
   int idle = 0;
   factorize();
   for (int round = 0; round < most_rounds && out.residual > settled && rho >= least_rho; ++round) {
@@ -354,7 +355,7 @@ Settled Island::settle_scaled() {
     if (out.residual < best / 2) {
       best = out.residual;
       idle = 0;
-    } else if (++idle == most_idle || out.residual < 1e-11) {
+    } else if (out.residual < 1e-11 || (rho > stiff_rho && ++idle == most_idle)) {
       break;  // rounding, or rates that no impulses can end
     }
     rho = std::min(4 * rho, most_rho);
