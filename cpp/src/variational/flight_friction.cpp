@@ -1,7 +1,5 @@
 #include "variational/flight_friction.hpp"
 
-#include <cstdio>
-#include <cstdlib>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -155,13 +153,11 @@ Grips solve_with_law(const ModelData& model, const StepOptions& options, int fir
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0;; ++round) {
     const Lawlessness now = set_slip_rates(model, options, node, f);
-    if (getenv("DBG")) printf("  round %d tau %g res %.3e excess %.3e mom %.3e before %.3e\n", round, f.arc.tau, now.residual,now.excess, f.arc.residual,before);
     if (round > 0 && is_lawful(now, before)) break;
     if (round == most_rounds || !std::isfinite(now.residual)) return Grips::not_settled;
     before = now.residual;
     if (!set_slip_blocks(model, node, f)) return Grips::not_settled;
     f.slip.before = x.p;
-    if (getenv("DBG")) { auto uu=x.u, pp=x.p; auto st=settle_pile(x.W,x.pile,uu,pp); printf("    settle %.3e %.3e it %d\n",st.residual,st.excess,st.iterations); if(st.residual>1e-10||st.iterations>150){ static int n=0; char name[40]; sprintf(name,"/tmp/pilex/dump%d",n++); FILE*o=fopen(name,"w"); fprintf(o,"%d\n",x.W.size()); for(int i=0;i<x.W.size();i++){fprintf(o,"%.17g %.17g\n",x.W.friction[i],x.W.rest[i]); for(double q:x.u[i])fprintf(o,"%.17g ",q); for(double q:x.p[i])fprintf(o,"%.17g ",q); fprintf(o,"\n%d\n",x.W.start[i+1]-x.W.start[i]); for(int e=x.W.start[i];e<x.W.start[i+1];e++){fprintf(o,"%d\n",x.W.contact[e]); for(double q:x.W.block[e].reshaped())fprintf(o,"%.17g ",q); fprintf(o,"\n");}} fclose(o); printf("dumped %s\n",name);} }
     settle_pile(x.W, x.pile, x.u, x.p);  // what it leaves, the next round finds
     for (std::size_t i = 0; i < x.contact.size(); ++i) {
       const Vec3 dp = x.p[i] - f.slip.before[i];
@@ -188,8 +184,8 @@ bool rests_with_friction(const Node& node) {
   return false;
 }
 
-void make_room(const ModelData& model, const Node& node, Flight& f) {
-  const std::size_t wanted = 3 * static_cast<std::size_t>(node.touching) + 1;  // and a launch
+void make_room(const ModelData& model, int contacts, Flight& f) {
+  const std::size_t wanted = 3 * static_cast<std::size_t>(contacts) + 1;  // and a launch
   while (f.constraints.size() < wanted) f.constraints.push_back(fresh_constraint(model));
   while (f.slip.row.size() < std::max(wanted / 3, std::size_t{1})) {
     SlipRows row;

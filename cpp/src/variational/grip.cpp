@@ -5,8 +5,6 @@
 namespace saltus {
 namespace {
 
-constexpr std::size_t contacts_reserved = 64;
-
 /// All normals, and the tangents that do not follow from others where they stick.
 void list_unknowns(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p,
                    PolishScratch& x) {
@@ -56,21 +54,27 @@ const Mat3* find_block(const ContactBlocks& W, int at, int by) {
 
 }  // namespace
 
-void reserve_blocks(ContactBlocks& W) {
-  constexpr std::size_t reserved = contacts_reserved;
-  W.start.reserve(reserved + 1);
-  W.contact.reserve(reserved * reserved);
-  W.block.reserve(reserved * reserved);
-  W.own.reserve(reserved);
-  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(reserved);
+void PolishScratch::reserve(std::size_t contacts) {
+  const std::size_t rates_of_all = 3 * contacts;
+  unknown.reserve(rates_of_all);
+  change.reserve(contacts);
+  for (auto* each : {&rates.contact, &rates.rate}) each->reserve(rates_of_all);
+  rates.L.reserve(rates_of_all * (rates_of_all + 1) / 2);
+  system.reserve(static_cast<int>(rates_of_all));
 }
 
-FrictionScratch::FrictionScratch(bool with_friction) : any(with_friction) {
+FrictionScratch::FrictionScratch(bool with_friction, std::size_t contacts) : any(with_friction) {
   if (!any) return;
-  reserve_blocks(W);
-  for (auto* each : {&u, &p}) each->reserve(contacts_reserved);
-  contact.reserve(contacts_reserved);
+  W.start.reserve(contacts + 1);
+  W.contact.reserve(contacts * contacts);
+  W.block.reserve(contacts * contacts);
+  W.own.reserve(contacts);
+  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(contacts);
+  for (auto* each : {&u, &p}) each->reserve(contacts);
+  contact.reserve(contacts);
   impulses.reserve(1024);
+  pile.reserve(contacts);
+  polish.reserve(contacts);
 }
 
 bool IndependentRates::take(const ContactBlocks& W, int at, int of) {

@@ -11,6 +11,7 @@
 // the change that is kept the shortest. So all impulses stay within their cones.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -67,14 +68,17 @@ struct PolishScratch {
   std::vector<Vec3> change;
   IndependentRates rates;
   RedundantSystem system;
+  void reserve(std::size_t contacts);
 };
 
-/// Room for some contacts; more grow once.
-void reserve_blocks(ContactBlocks& W);
+/// Contacts that there is room for from the start; more grow once.
+inline std::size_t contacts_reserved(int pairs) {
+  return std::min(static_cast<std::size_t>(pairs), std::size_t{64});
+}
 
 /// What a node or a flight keeps of friction; empty where no materials have any.
 struct FrictionScratch {
-  explicit FrictionScratch(bool with_friction);
+  FrictionScratch(bool with_friction, std::size_t contacts);
   bool any;  ///< some pair of materials has friction
   ContactBlocks W;
   std::vector<Vec3> u, p;

@@ -365,6 +365,16 @@ Settled Island::settle_scaled() {
 
 }  // namespace
 
+void PileScratch::reserve(std::size_t k) {
+  for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
+  for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
+  for (auto* each : {&u, &p, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
+  for (auto* each : {&row, &DL}) each->reserve(9 * k);
+  for (auto* each : {&L, &H}) each->reserve(9 * k * k);
+  pivot.reserve(3 * k);
+}
+
 Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
                         const std::vector<Vec3>& p) {
   Residual sum;

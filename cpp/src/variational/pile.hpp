@@ -37,6 +37,8 @@ struct PileScratch {
   std::vector<double> H, DL;               ///< (r, r) F', (3, r)
   std::vector<Vec3> u, p, q, base, trial;  ///< (k) scaled rates and impulses
   std::vector<double> z, z_new, dz, F, F_new;  ///< (r)
+
+  void reserve(std::size_t contacts);
 };
 
 /// How far from Coulomb's law: |p - P(p - u)|, as a part of the impulses and rates that there are.

@@ -28,6 +28,13 @@ void solve_definite(double* G, int n) {
 
 }  // namespace
 
+void RedundantSystem::reserve(int unknowns) {
+  const auto n = static_cast<std::size_t>(unknowns);
+  for (auto* each : {&A_, &G_}) each->reserve(n * (n + 1));
+  column_.reserve(n);
+  x_.reserve(n);
+}
+
 void RedundantSystem::start(int unknowns) {
   n_ = unknowns;
   A_.assign(static_cast<std::size_t>(n_) * width(), 0.0);

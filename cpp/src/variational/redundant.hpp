@@ -9,6 +9,7 @@ namespace saltus {
 /// shortest of many solutions. Its memory grows with the largest system and then stays.
 class RedundantSystem {
  public:
+  void reserve(int unknowns);
   void start(int unknowns);  ///< all zero
   double& A(int i, int j) { return A_[static_cast<std::size_t>(i) * width() + j]; }
   double& b(int i) { return A(i, n_); }  ///< before solve() the right side, then the solution
