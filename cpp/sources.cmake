@@ -95,6 +95,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/outcomes.cpp
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/pile.cpp
+  cpp/src/variational/pile_island.cpp
   cpp/src/variational/redundant.cpp
   cpp/src/variational/slip_blocks.cpp
   cpp/src/variational/slip_law.cpp

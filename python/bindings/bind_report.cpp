@@ -46,7 +46,8 @@ contacts : list of ContactImpulse
     What held pairs closed over the step, impacts left aside.
 )";
 
-constexpr auto contact_doc = R"(What held a pair closed over a step: its impulses, but for those of impacts.
+constexpr auto contact_doc =
+    R"(What held a pair closed over a step: its impulses, but for those of impacts.
 
 Divided by the step `h` these are its mean forces.
 
@@ -61,14 +62,8 @@ tangential : numpy.ndarray, shape (3,)
 )";
 
 NamedImpact with_names(const Model& model, const StepReport& report, const Impact& impact) {
-  NamedImpact out{impact.t,
-                  {},
-                  VecX(impact.count),
-                  MatX::Zero(impact.count, 3),
-                  impact.contacts,
-                  impact.law,
-                  impact.fallback,
-                  ""};
+  NamedImpact out{impact.t,        {},         VecX(impact.count), MatX::Zero(impact.count, 3),
+                  impact.contacts, impact.law, impact.fallback,    ""};
   for (int i = 0; i < impact.count; ++i) {
     const Impulse& impulse = report.impulses[impact.first + i];
     out.pairs.push_back(model.pair_name(impulse.pair));
@@ -95,8 +90,10 @@ void bind_impact(py::module_& m) {
       .def(py::init([](double t, std::vector<std::string> pairs, const VecX& lambdas, int contacts,
                        ImpactLaw law, bool fallback, const std::string& certificate,
                        const std::optional<MatX>& tangentials) {
-             return I{t,   std::move(pairs), lambdas,  to_tangentials(tangentials, lambdas.size()),
-                      contacts, law,         fallback, certificate};
+             return I{t,        std::move(pairs),
+                      lambdas,  to_tangentials(tangentials, lambdas.size()),
+                      contacts, law,
+                      fallback, certificate};
            }),
            py::arg("t"), py::arg("pairs"), py::arg("lambdas"), py::kw_only(), py::arg("contacts"),
            py::arg("law"), py::arg("fallback"), py::arg("certificate") = "",

@@ -9,8 +9,8 @@ namespace saltus {
 double discrete_energy(const ModelData& model, const ArcProblem& problem, const VecX& v,
                        const ArcScratch& s);
 
-/// J dv - N dlambda = r, C dv = -c, by the Schur complement C J^-1 N: changes s.dv, which is J^-1 r,
-/// and the constraints' lambda.
+/// J dv - N dlambda = r, C dv = -c, by the Schur complement C J^-1 N: changes s.dv, which is J^-1
+/// r, and the constraints' lambda.
 void add_constraints(const ModelData& model, const ArcProblem& problem, const VecX& v,
                      ArcScratch& s);
 

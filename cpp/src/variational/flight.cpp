@@ -239,13 +239,6 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
 
 }  // namespace
 
-ArcConstraint fresh_constraint(const ModelData& model) {
-  ArcConstraint c;
-  c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
-  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.coordinates);
-  return c;
-}
-
 Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
     : history(model.tree.coordinates),
       scratch(model, options.law),
@@ -258,7 +251,8 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (VecX* x : {&slip.carried, &slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
   for (ArcConstraint& c : constraints) c = fresh_constraint(model);
-  if (with_friction) make_room(model, static_cast<int>(contacts_reserved(model.pairs.size())), *this);
+  if (with_friction)
+    make_room(model, static_cast<int>(contacts_reserved(model.pairs.size())), *this);
 }
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,

@@ -34,9 +34,9 @@ struct SlipScratch {
   std::vector<SlipRows> row;  ///< of the holds
   std::vector<Vec3> before;
   bool restarted = false;  ///< the arc has been solved anew without what was held before
-  bool carries = false;  ///< some impulses are no unknowns of the arc:
-  VecX carried, p;       ///< (n_q) their sum; the node's p and that, written by arc_problem
-  VecX size;             ///< (n_q) of all that is summed up in p, written by set_slip_rates
+  bool carries = false;    ///< some impulses are no unknowns of the arc:
+  VecX carried, p;         ///< (n_q) their sum; the node's p and that, written by arc_problem
+  VecX size;               ///< (n_q) of all that is summed up in p, written by set_slip_rates
 };
 
 struct Flight {
@@ -80,9 +80,6 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
                   Flight& flight, bool& fallback);
 
 // Of flight.cpp, for flight_friction.cpp:
-
-/// With memory for all that a constraint may come to hold.
-ArcConstraint fresh_constraint(const ModelData& model);
 
 /// Holds a resting pair closed from now on; its gap is brought to exactly 0. @return false: no room
 bool hold(const ModelData& model, int pair, Node& node, Flight& flight);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "variational/impact_time.hpp"
+#include "variational/launch.hpp"
 #include "variational/slip_blocks.hpp"
 #include "variational/slip_law.hpp"
 

@@ -71,6 +71,13 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
 
 }  // namespace
 
+ArcConstraint fresh_constraint(const ModelData& model) {
+  ArcConstraint c;
+  c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
+  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.coordinates);
+  return c;
+}
+
 ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target) {
   ArcConstraint& c = f.constraints[f.active++];
   c.kind = kind;

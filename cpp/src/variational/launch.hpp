@@ -14,7 +14,10 @@
 
 namespace saltus {
 
-/// A fresh constraint of the next arcs; needs f.active < most_constraints.
+/// With memory for all that a constraint may come to hold.
+ArcConstraint fresh_constraint(const ModelData& model);
+
+/// A fresh constraint of the next arcs; needs room in the pool.
 ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target);
 
 /// Meets node.launch by the arc over `left`, which is solved without it in flight.arc.

@@ -131,7 +131,7 @@ bool settle_with_friction(const ModelData& model, Node& node) {
       s.u[s.W.contact[e]] += s.W.block[e] * memory.p;
     }
   }
-  s.residual = std::max(s.residual, settle_pile(s.W, s.pile, s.u, s.p).excess);
+  s.residual = std::max(s.residual, settle_for_sure(s.W, s.pile, s.u, s.p));
   polish(s.W, s.polish, s.u, s.p);
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
     const Contact& c = node.contacts[s.contact[i]];

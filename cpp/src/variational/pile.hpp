@@ -29,13 +29,13 @@ namespace saltus {
 struct PileScratch {
   std::vector<int> island, order, place;  ///< (m) union-find; contacts by island; in its island
   // of one island with k contacts and r independent rates
-  std::vector<double> scale, friction, rest;  ///< (k)
-  std::vector<int> first, last;            ///< (k) columns of L that the rows of a contact have
-  std::vector<int> pivot;                  ///< (r) the rate that a column of L was made for
-  std::vector<double> L;                   ///< (3 k, r) by rows
-  std::vector<double> row;                 ///< (3, 3 k) of W
-  std::vector<double> H, DL;               ///< (r, r) F', (3, r)
-  std::vector<Vec3> u, p, q, base, trial;  ///< (k) scaled rates and impulses
+  std::vector<double> scale, friction, rest;   ///< (k)
+  std::vector<int> first, last;                ///< (k) columns of L that the rows of a contact have
+  std::vector<int> pivot;                      ///< (r) the rate that a column of L was made for
+  std::vector<double> L;                       ///< (3 k, r) by rows
+  std::vector<double> row;                     ///< (3, 3 k) of W
+  std::vector<double> H, DL;                   ///< (r, r) F', (3, r)
+  std::vector<Vec3> u, p, q, base, trial;      ///< (k) scaled rates and impulses
   std::vector<double> z, z_new, dz, F, F_new;  ///< (r)
 
   void reserve(std::size_t contacts);
@@ -60,6 +60,10 @@ Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
 /// @return what is left; has settled where excess <= small_residual
 Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
                     std::vector<Vec3>& p);
+
+/// The same, and where Newton's method fails Gauss-Seidel sweeps. @return excess
+double settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
+                       std::vector<Vec3>& p);
 
 /// `collide` (friction.hpp) with room that stays.
 bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch& pile,

@@ -41,8 +41,7 @@ void set_rates(const ModelData& model, const Node& node, Flight& f) {
 }
 
 /// J^-1 of the rows of a hold.
-void set_columns(const ModelData& model, bool slips, ArcConstraint& c, SlipRows& x,
-                 ArcScratch& s) {
+void set_columns(const ModelData& model, bool slips, ArcConstraint& c, SlipRows& x, ArcScratch& s) {
   c.column = c.row;
   solve(model.tree, model.packed, s.J, c.column);
   if (!slips) return;

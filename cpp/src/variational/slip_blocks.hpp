@@ -1,9 +1,10 @@
 // What impulses at the holds of a flight change in its arc, and what they are.
 //
-// The rates u are those of the arc's constraints, with rows C: of the gap by its end, and T v in its
-// middle. An impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N; T]^T, with
-// J the arc's Newton matrix. W is C J^-1 C^T, made symmetric: what follows from others in u does so
-// in W too, and that it is O(h) off where bodies turn is mended by the rounds that solve the law.
+// The rates u are those of the arc's constraints, with rows C: of the gap by its end, and T v in
+// its middle. An impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N;
+// T]^T, with J the arc's Newton matrix. W is C J^-1 C^T, made symmetric: what follows from others
+// in u does so in W too, and that it is O(h) off where bodies turn is mended by the rounds that
+// solve the law.
 #pragma once
 
 #include "variational/flight.hpp"
@@ -22,7 +23,8 @@ void add_slide_rows(const ModelData& model, const ArcConstraint& hold, ArcScratc
                     VecX& t1);
 
 /// Of the holds in flight.slip.friction.contact with the impulses in flight.slip.friction.p: writes
-/// their rates u at flight.arc.v, and flight.slip.p, the momentum that all forces have been added to.
+/// their rates u at flight.arc.v, and flight.slip.p, the momentum that all forces have been added
+/// to.
 /// @return how far they are from the arc's equation and from Coulomb's law; of the latter not at
 /// first, when W has not been written
 Lawlessness set_slip_rates(const ModelData& model, const StepOptions& options, const Node& node,

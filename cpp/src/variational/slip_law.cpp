@@ -19,7 +19,7 @@ Vec2 slide_of(const ModelData& model, const ArcConstraint& c, Flight& f) {
 
 /// How far a hold is from Coulomb's law: by a part of the forces, or of the speeds that there are.
 double lawlessness_of(const ModelData& model, const Node& node, double size, const ArcConstraint& c,
-                   Flight& f) {
+                      Flight& f) {
   const Contact& contact = contact_of(node, c);
   if (c.lambda < -1e-12 * size) return 1;
   if (!(contact.friction > 0) || !(c.lambda > 1e-12 * size)) return 0;
