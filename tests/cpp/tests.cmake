@@ -53,6 +53,7 @@ set(SALTUS_TEST_variational
   variational/test_friction.cpp
   variational/test_friction_boxes.cpp
   variational/test_friction_impact.cpp
+  variational/test_friction_piles.cpp
   variational/test_hard_cases.cpp
   variational/test_laws.cpp
   variational/test_impact_outcomes.cpp

@@ -187,7 +187,7 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
   f.active = 0;
-  if (node.friction.any) make_room(model, node.touching, f);
+  if (node.friction.any) make_room(model, node, f);
   if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any) start_grips(left, node, f);
   return solve_first_arc(model, options, left, node, f) || restart(model, options, left, node, f)
@@ -244,15 +244,13 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
       constraints(most_constraints),
-      slip(with_friction, contacts_reserved(model.pairs.size())) {
+      slip(with_friction) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
   for (VecX* x : {&slip.carried, &slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
   for (ArcConstraint& c : constraints) c = fresh_constraint(model);
-  if (with_friction)
-    make_room(model, static_cast<int>(contacts_reserved(model.pairs.size())), *this);
 }
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,

@@ -27,9 +27,7 @@ struct SlipRows {
 
 /// Scratch of flight_friction.cpp; empty without friction.
 struct SlipScratch {
-  SlipScratch(bool with_friction, std::size_t contacts) : friction(with_friction, contacts) {
-    if (with_friction) before.reserve(contacts);
-  }
+  explicit SlipScratch(bool with_friction) : friction(with_friction) {}
   FrictionScratch friction;   ///< of the holds; `contact` are their constraints
   std::vector<SlipRows> row;  ///< of the holds
   std::vector<Vec3> before;

@@ -19,8 +19,8 @@ enum class Grips { settled, not_settled };
 /// Some contact that rests at the node has friction: then update_grips says what is held.
 bool rests_with_friction(const Node& node);
 
-/// Room in the flight for so many contacts to be held and to stick.
-void make_room(const ModelData& model, int contacts, Flight& flight);
+/// Room in the node and the flight for all that touches to be held and to stick.
+void make_room(const ModelData& model, Node& node, Flight& flight);
 
 /// Starts the holds of a flight with what they did in the one before. Needs the flight's number.
 void start_grips(double left, Node& node, Flight& flight);

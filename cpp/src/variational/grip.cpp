@@ -63,8 +63,15 @@ void PolishScratch::reserve(std::size_t contacts) {
   system.reserve(static_cast<int>(rates_of_all));
 }
 
-FrictionScratch::FrictionScratch(bool with_friction, std::size_t contacts) : any(with_friction) {
+FrictionScratch::FrictionScratch(bool with_friction) : any(with_friction) {
   if (!any) return;
+  constexpr std::size_t a_few_boxes = 16;
+  reserve(a_few_boxes);
+  impulses.reserve(1024);
+}
+
+void FrictionScratch::reserve(std::size_t contacts) {
+  if (contacts <= contact.capacity()) return;
   W.start.reserve(contacts + 1);
   W.contact.reserve(contacts * contacts);
   W.block.reserve(contacts * contacts);
@@ -72,7 +79,6 @@ FrictionScratch::FrictionScratch(bool with_friction, std::size_t contacts) : any
   for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(contacts);
   for (auto* each : {&u, &p}) each->reserve(contacts);
   contact.reserve(contacts);
-  impulses.reserve(1024);
   pile.reserve(contacts);
   polish.reserve(contacts);
 }

@@ -11,7 +11,6 @@
 // the change that is kept the shortest. So all impulses stay within their cones.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -71,14 +70,10 @@ struct PolishScratch {
   void reserve(std::size_t contacts);
 };
 
-/// Contacts that there is room for from the start; more grow once.
-inline std::size_t contacts_reserved(int pairs) {
-  return std::min(static_cast<std::size_t>(pairs), std::size_t{64});
-}
-
 /// What a node or a flight keeps of friction; empty where no materials have any.
 struct FrictionScratch {
-  FrictionScratch(bool with_friction, std::size_t contacts);
+  explicit FrictionScratch(bool with_friction);
+  void reserve(std::size_t contacts);  ///< no effect where there is room
   bool any;  ///< some pair of materials has friction
   ContactBlocks W;
   std::vector<Vec3> u, p;

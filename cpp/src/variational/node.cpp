@@ -11,6 +11,8 @@ namespace saltus {
 namespace {
 
 constexpr std::size_t impulses_reserved = 1024;
+/// As many as can touch in a plain scene; a pool that is too small grows once.
+constexpr std::size_t contacts_reserved = 64;
 /// Of the contacts that one tree takes part in.
 constexpr std::size_t most_on_a_tree = 64;
 
@@ -76,7 +78,7 @@ Node::Node(const ModelData& model)
       contact_of(static_cast<std::size_t>(pool.size()), -1),
       held(contact_of.size(), 0),
       sunk(contact_of.size(), 0),
-      friction(have_friction(model.materials), contacts_reserved(model.pairs.size())),
+      friction(have_friction(model.materials)),
       w(model.packed),
       kin(model.tree),
       M(model.tree, model.packed),
@@ -89,7 +91,8 @@ Node::Node(const ModelData& model)
     const double touch = relative_touch * feature_size(shape.shape);
     if (std::isfinite(touch)) most_touch = std::max(most_touch, touch);
   }
-  const std::size_t reserved = contacts_reserved(model.pairs.size());
+  const std::size_t reserved =
+      std::min(static_cast<std::size_t>(model.pairs.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(trees, friction.any));
   G.start.reserve(reserved + 1);
   G.diagonal.reserve(reserved);
@@ -101,7 +104,7 @@ Node::Node(const ModelData& model)
   contacts_on.resize(trees.of.size());
   for (auto& each : contacts_on) each.reserve(std::min(reserved, most_on_a_tree));
   impulses.reserve(impulses_reserved);
-  closing.reserve(64);
+  closing.reserve(contacts_reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
   restitution.setOnes(static_cast<Eigen::Index>(reserved));

@@ -124,13 +124,13 @@ int PileIsland::solve_round(double rho, bool& ended) {
   return most_newton;
 }
 
-Settled PileIsland::settle(std::vector<Vec3>& u, std::vector<Vec3>& p) {
+Settled PileIsland::settle(double part, std::vector<Vec3>& u, std::vector<Vec3>& p) {
   set_sizes();
   for (int i = 0; i < k_; ++i) {
     s_.u[i] = s_.scale[i] * u[contact(i)];
     s_.p[i] = p[contact(i)] / s_.scale[i];
   }
-  const Settled out = settle_scaled();
+  const Settled out = settle_scaled(part);
   for (int i = 0; i < k_; ++i) {
     u[contact(i)] = s_.u[i] / s_.scale[i];
     p[contact(i)] = s_.p[i] * s_.scale[i];
@@ -151,14 +151,15 @@ void PileIsland::set_base(double rho) {
 }
 
 /// s.u are the rates with s.p in place.
-Settled PileIsland::settle_scaled() {
+Settled PileIsland::settle_scaled(double part) {
   Settled out{residual(), 0};
+  const double enough = std::max(settled, part * out.residual);
   if (out.residual <= settled) return out;
   // far from the law softly, near it not
   double rho = std::clamp(1e-3 / out.residual, 1.0, 1e4), best = out.residual;
   int idle = 0;
   factorize();
-  for (int round = 0; round < most_rounds && out.residual > settled && rho >= least_rho; ++round) {
+  for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
     set_z();
     set_base(rho);
     bool ended = false;
@@ -204,14 +205,14 @@ Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
 }
 
 Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
-                    std::vector<Vec3>& p) {
+                    std::vector<Vec3>& p, double part) {
   Settled out;
   sort_by_island(W, s);
   const int m = W.size();
   for (int begin = 0, end = 0; begin < m; begin = end) {
     while (end < m && s.island[s.order[end]] == s.island[s.order[begin]]) ++end;
     PileIsland island(W, begin, end, s);
-    const Settled one = island.settle(u, p);
+    const Settled one = island.settle(part, u, p);
     out.residual = std::max(out.residual, one.residual);
     out.excess = std::max(out.excess, one.excess);
     out.iterations += one.iterations;

@@ -57,9 +57,10 @@ Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
 
 /// @param W symmetric
 /// @param u (m) rates with p in place, changed; @param p (m) guess in, solution out
+/// @param part of its residual at the start that is small enough
 /// @return what is left; has settled where excess <= small_residual
 Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
-                    std::vector<Vec3>& p);
+                    std::vector<Vec3>& p, double part = 0);
 
 /// The same, and where Newton's method fails Gauss-Seidel sweeps. @return excess
 double settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,

@@ -36,10 +36,10 @@ class PileIsland {
   PileIsland(const ContactBlocks& W, int begin, int end, PileScratch& s)
       : W_(W), begin_(begin), k_(end - begin), s_(s) {}
 
-  Settled settle(std::vector<Vec3>& u, std::vector<Vec3>& p);
+  Settled settle(double part, std::vector<Vec3>& u, std::vector<Vec3>& p);
 
  private:
-  Settled settle_scaled();
+  Settled settle_scaled(double part);
   void set_base(double rho);
   int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
   Row row_of_L(int i) { return {s_.L.data() + static_cast<std::ptrdiff_t>(i) * 3 * k_, 3 * k_}; }

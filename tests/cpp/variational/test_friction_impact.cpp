@@ -152,6 +152,53 @@ TEST(FrictionImpact, SettlingTogetherObeysCoulombAtEveryContact) {
   }
 }
 
+// A rod, weightless in one motion, that is pressed into the floor along its axis: friction can hold
+// any approach, and one impulse stops it. W = [1 b; b b^2] is singular along (1, -1/b).
+TEST(FrictionImpact, WhatFrictionCanHoldAgainstAnyApproachIsStopped) {
+  for (const double b : {2.0, -2.0, 5.0}) {
+    Scene s;
+    s.M = MatX::Identity(1, 1);
+    s.N = MatX::Constant(1, 1, 1);
+    s.T = MatX::Zero(2, 1);
+    s.T(0, 0) = b;
+    s.v = vec({-1.5});
+    s.e = vec({0});
+    s.mu = vec({0.8});
+    const FrictionOutcome out = resolve(s);
+    expect_near(out.v, vec({0}), 1e-14);
+    ASSERT_EQ(out.impulses.size(), 1u);
+    const Vec3 p = out.impulses[0].p;
+    EXPECT_LE(p.tail<2>().norm(), 0.8 * p[0] * (1 + 1e-12));
+  }
+}
+
+TEST(FrictionImpact, RedundantContactsThatDoNotReboundObeyCoulombTogether) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 200; ++trial) {  // up to 12 contacts, 36 rates, 8 coordinates
+    const int contacts = 2 + trial % 11, n = 8;
+    Scene s;
+    const MatX A = random_matrix(n, n, random);
+    s.M = A * A.transpose() + 0.3 * MatX::Identity(n, n);
+    s.N = random_matrix(contacts, n, random);
+    s.N.col(0) = s.N.col(0).cwiseAbs().array() + 1;
+    s.T = random_matrix(2 * contacts, n, random);
+    s.v = random_vector(n, random);
+    s.v[0] -= 3;
+    s.e = VecX::Zero(contacts);
+    s.mu = VecX::Constant(contacts, 0.3);
+    const FrictionOutcome out = resolve(s);
+    EXPECT_LE(energy(s.M, out.v), energy(s.M, s.v));
+    const VecX u_n = s.N * out.v, u_t = s.T * out.v;
+    EXPECT_GE(u_n.minCoeff(), -1e-8) << trial;
+    for (const FrictionImpulse& i : out.impulses) {
+      EXPECT_NEAR(u_n[i.contact] * i.p[0], 0, 1e-7) << trial;
+      const Eigen::Vector2d slide = u_t.segment<2>(2 * i.contact), beta = i.p.tail<2>();
+      EXPECT_LE(beta.norm(), 0.3 * i.p[0] * (1 + 1e-12));
+      EXPECT_NEAR(beta.dot(slide), -0.3 * i.p[0] * slide.norm(), 1e-7) << trial;
+    }
+  }
+}
+
 TEST(FrictionImpact, ErrorsNameWhatDoesNotFit) {
   std::mt19937 random(4);
   Scene s = random_scene(2, 1, random);

@@ -67,5 +67,15 @@ TEST(Stepper, ABoxThatSlidesToRestAllocatesNothing) {
   EXPECT_EQ(allocations, before);
 }
 
+TEST(Stepper, ATowerThatStandsAllocatesNothing) {
+  const Model model = scenes::boxes_on_slope(10, Vec3(0.2, 0.15, 0.1), 0, {0, 0.5});
+  Stepper stepper(model, {.h = 0.01});
+  State state = model.state();
+  for (int k = 0; k < 2; ++k) stepper.step(state);
+  const long before = allocations;
+  for (int k = 0; k < 100; ++k) stepper.step(state);
+  EXPECT_EQ(allocations, before);
+}
+
 }  // namespace
 }  // namespace saltus
