@@ -19,6 +19,7 @@
 // Impulses and rates are scaled by sqrt(W_ii), so that light and heavy bodies count alike.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "saltus/variational/friction.hpp"
@@ -45,6 +46,7 @@ struct PileScratch {
 struct Lawlessness {
   double residual = 0;
   double excess = 0;  ///< likewise, of what is more than W.rest of a contact
+  double least() const { return std::min(residual, excess); }
 };
 
 struct Settled : Lawlessness {
