@@ -55,7 +55,7 @@ TEST(PairTable, NumbersEveryWatchedPairOnceRowByRow) {
         ASSERT_EQ(table.count(j, i), parts);
         if (parts == 0) continue;
         used[i] = used[j] = 1;
-        ASSERT_EQ(table.first(j, i), number);
+        ASSERT_EQ(table.range(j, i).first, number);
         for (int part = 0; part < parts; ++part, ++number) {
           const PairTable::Key key = table.key(number);
           ASSERT_EQ(key.a, i);
@@ -74,7 +74,7 @@ TEST(PairTable, HasRoomForTenThousandBalls) {
   for (int i = 0; i < 10000; ++i) shapes.push_back(place(Sphere{1}, i, {}));
   const PairTable table = testing_scene::table_of(shapes);
   EXPECT_EQ(table.size(), 10000 * 9999 / 2);
-  EXPECT_EQ(table.first(9998, 9999), table.size() - 1);
+  EXPECT_EQ(table.range(9998, 9999).first, table.size() - 1);
   EXPECT_EQ(table.key(table.size() - 1).a, 9998);
 }
 
