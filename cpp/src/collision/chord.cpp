@@ -20,6 +20,8 @@
 
 #include "collision/chord_path.hpp"
 #include "collision/core.hpp"
+#include "collision/crossing.hpp"
+#include "collision/rim_crossing.hpp"
 
 namespace saltus {
 namespace {
@@ -116,24 +118,20 @@ double certified_advance(const Chord& chord, double g, const ChordSample& x,
   return d;
 }
 
+bool has_cylinder(const Pair& pair) {
+  return std::holds_alternative<Cylinder>(pair.on_a.shape) ||
+         std::holds_alternative<Cylinder>(pair.on_b.shape);
+}
+
 /// The floor that a pair can reach: edges of solids meet at 0.
 double reachable(const Pair& pair, double floor) {
-  if (pair.kind != PairKind::crossing) return floor;
+  if (pair.kind != PairKind::crossing || has_cylinder(pair)) return floor;
   const double radii = core_radius(pair.on_a.shape) + core_radius(pair.on_b.shape);
   return std::fmax(floor, -radii);
 }
 
-}  // namespace
-
-double gap_change_bound(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq) {
-  return first_bounds({tree, pair, q, dq}).mu;
-}
-
-ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq,
-                            double floor) {
+ChordHit search(const Chord& chord, double floor) {
   using Outcome = ChordHit::Outcome;
-  const Chord chord{tree, pair, q, dq};
-  floor = reachable(pair, floor);
   ChordSample x = sample_chord(chord, 0);
   ChordBounds bounds = first_bounds(chord);
   if (x.phi - bounds.mu > floor) return {Outcome::clear, 1};
@@ -153,6 +151,33 @@ ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q,
     if (s >= 1) return {Outcome::clear, 1};
   }
   return {Outcome::not_converged, s};
+}
+
+/// Of a crossing with a cylinder: most edges of a large body are far from it. Where a rim is
+/// crossed, one part is searched that is near the place.
+ChordHit search_at_cylinder(Chord chord, double floor) {
+  const Pose X_BA = pose_at_start(chord);
+  const double around = distance_around_cylinder(chord.pair, X_BA, {});
+  if (around - first_bounds(chord).mu > floor) return {ChordHit::Outcome::clear, 1};
+  NearRim near;
+  if (chord.pair.rim == RimPart::none) return search(chord, floor);
+  if (!near_rim(chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
+  (near.of_a ? chord.part_a : chord.part_b) = &near.part;
+  return search(chord, floor);
+}
+
+}  // namespace
+
+double gap_change_bound(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq) {
+  return first_bounds({tree, pair, q, dq}).mu;
+}
+
+ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq,
+                            double floor) {
+  const Chord chord{tree, pair, q, dq};
+  floor = reachable(pair, floor);
+  const bool at_cylinder = pair.kind == PairKind::crossing && has_cylinder(pair);
+  return at_cylinder ? search_at_cylinder(chord, floor) : search(chord, floor);
 }
 
 }  // namespace saltus
