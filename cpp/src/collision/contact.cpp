@@ -65,7 +65,7 @@ Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
 }
 
 bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap) {
-  if (pair.kind == PairKind::corner) return false;
+  if (pair.kind == PairKind::corner && pair.out_a.isZero(0)) return false;
   if (pair.kind == PairKind::whole && pair.rim == RimPart::none && !pair.skips_corners)
     return false;
   const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin

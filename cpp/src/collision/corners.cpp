@@ -44,6 +44,7 @@ PartOfShape corner_of(const Cylinder& cylinder, int k) {
   name.append(std::to_string(90 * (k % 4)));
   const Vec3 w(std::cos(angle), std::sin(angle), 0), t(-w.y(), w.x(), 0);
   PartOfShape out = point(name, 0, cylinder.radius * w + z * cylinder.half_length * Vec3::UnitZ());
+  out.out = z * Vec3::UnitZ();
   out.inward = {-z * Vec3::UnitZ(), -w, t, -t};
   return out;
 }

@@ -189,6 +189,7 @@ bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& 
                                      : !is_rim_crossing(pair, X_WA, X_WB, gap);
   }
   if (pair.rim != RimPart::none) return is_rim_silent(pair, X_WA, X_WB, gap);
+  if (pair.kind == PairKind::corner) return is_rim_point_silent(pair, X_WA, gap);
   if (!pair.skips_corners) return false;
   const auto on_corner = [](const Shape& shape, const Patch& patch) {
     return patch.dim == 0 && !is<Cylinder>(shape);

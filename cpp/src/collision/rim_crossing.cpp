@@ -48,14 +48,14 @@ struct Place {
   Cylinder a;
   const Shape& b;
   RimPart rim;
-  Vec3 out_b = Vec3::Zero();
+  Vec3 out_a, out_b;  ///< as in Pair
 
   bool of_rims() const { return rim == RimPart::left || rim == RimPart::right; }
   const Cylinder& other() const { return std::get<Cylinder>(b); }
 };
 
 Place place_of(const Pair& pair) {
-  return {std::get<Cylinder>(pair.on_a.shape), pair.on_b.shape, pair.rim, pair.out_b};
+  return {std::get<Cylinder>(pair.on_a.shape), pair.on_b.shape, pair.rim, pair.out_a, pair.out_b};
 }
 
 /// Out of the cap that is nearer to p.
@@ -126,10 +126,10 @@ Gap nowhere(const Pose& X_WA, const Pose& X_WB) {
 }
 
 /// True where n is out of a cylinder's cap, nearly, and at the point p not into its side.
-bool is_off_cap(const Pose& X, const Vec3& p_W, const Vec3& out_W) {
-  const Vec3 z = cap_towards(X, p_W), from_axis = p_W - X.p;
-  const Vec3 w = (from_axis - z.dot(from_axis) * z).normalized();
-  return out_W.dot(z) >= cosine_flat && out_W.dot(w) >= -tilt;
+bool is_off_cap(const Pose& X, const Vec3& cap, const Vec3& p_W, const Vec3& n_W) {
+  const Vec3 from_axis = p_W - X.p;
+  const Vec3 w = (from_axis - cap.dot(from_axis) * cap).normalized();
+  return n_W.dot(cap) >= cosine_flat && n_W.dot(w) >= -tilt;
 }
 
 bool is_edge_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
@@ -167,8 +167,10 @@ Gap gap_at(const Place& place, const Pose& X_WA, const Pose& X_WB) {
 bool is_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
   if (!std::isfinite(gap.phi)) return false;
   if (gap.a.t0.cross(gap.b.t0).norm() < parallel) return false;
-  if (!is_off_cap(X_WA, gap.p_WA, -gap.n_W)) return false;
-  if (x.of_rims()) return is_off_cap(X_WB, gap.p_WB, gap.n_W);
+  // of a disc the point tells no side
+  const Vec3 cap = x.out_a.isZero(0) ? cap_towards(X_WA, gap.p_WA) : Vec3(X_WA.R * x.out_a);
+  if (!is_off_cap(X_WA, cap, gap.p_WA, -gap.n_W)) return false;
+  if (x.of_rims()) return is_off_cap(X_WB, cap_towards(X_WB, gap.p_WB), gap.p_WB, gap.n_W);
   return is_edge_there(x, X_WA, X_WB, gap);
 }
 
@@ -209,6 +211,10 @@ bool is_rim_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const G
   if (!pair.lists_edges) return true;
   const bool crosses = gap.a.t0.cross(gap.b.t0).norm() >= parallel;
   return crosses && -gap.n_W.dot(z) * side(pair.out_a.z()) >= cosine_flat;
+}
+
+bool is_rim_point_silent(const Pair& pair, const Pose& X_WA, const Gap& gap) {
+  return !pair.out_a.isZero(0) && -gap.n_W.dot(X_WA.R * pair.out_a) < cosine_flat;
 }
 
 bool near_rim(const Pair& pair, const Pose& X_BA, NearRim& out) {

@@ -21,6 +21,10 @@ bool is_rim_crossing(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const
 /// or a rim that crosses it flat. Of a cylinder that stands on a face the four points bear it.
 bool is_rim_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap);
 
+/// True where the corner of a pair is one of the points on the rims of a cylinder that does not
+/// stand, or nearly: its rim bears it then, wherever it rolls.
+bool is_rim_point_silent(const Pair& pair, const Pose& X_WA, const Gap& gap);
+
 /// The part of a pair that moves with a body and is near its place here: the half of the edge on
 /// that side, or a line across the cap. False where there is none.
 struct NearRim {
