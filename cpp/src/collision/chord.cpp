@@ -138,11 +138,14 @@ ChordHit search(const Chord& chord, double floor) {
 
   add_higher_bounds(chord, x.phi, bounds);
   double s = 0;
+  bool apart = false;  // edges have no inside: just beyond the root they depart
+  const bool edges = chord.pair.kind == PairKind::crossing;
   for (int k = 0; k < max_iterations; ++k, x = sample_chord(chord, s)) {
     const double g = x.phi - floor;
     if (!std::isfinite(g) || !std::isfinite(x.rate)) break;
     const bool touches = g <= rounding * bounds.length, departs = x.rate > rounding * bounds.mu;
-    if (touches && !departs) return {Outcome::hit, s};
+    if (touches && (!departs || (edges && apart))) return {Outcome::hit, s};
+    apart = apart || !touches;
     double d = certified_advance(chord, g, x, bounds, 1 - s);
     const bool overlaps = g < -rounding * bounds.length;
     if (overlaps) d = std::fmax(d, stride);

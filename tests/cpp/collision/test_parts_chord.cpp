@@ -71,8 +71,8 @@ TEST_P(PartsOnChords, NoTouchIsMissed) {
     double first = 2;
     for (const Pair& part : x.parts()) {
       const ChordHit hit = x.hit(part);
-      ASSERT_NE(hit.outcome, Outcome::not_converged);
-      if (hit.outcome == Outcome::hit) first = std::min(first, hit.s);
+      // not converged: clear as far as s, and looked at from there; of edges nearly parallel
+      if (hit.outcome != Outcome::clear) first = std::min(first, hit.s);
     }
     EXPECT_LE(first, root + 1e-12) << k;
     hits += root <= 1;

@@ -46,10 +46,10 @@ enum class PairKind {
 enum class RimPart {
   none,
   nearest,  ///< of one rim, against all of the other shape
-  in,
-  out,  ///< where an edge goes in over a rim, and where it comes out: seen along its own axis
-  left,
-  right,  ///< where two rims cross that lie flat on each other
+  in,       ///< where an edge goes in over a rim: seen along its own axis
+  out,      ///< where it comes out
+  left,     ///< where two rims cross that lie flat on each other: one place
+  right,    ///< and the other
 };
 
 /// epsilon_phi by the size of the smaller shape: far above the rounding of positions (1e-16 of the
@@ -64,7 +64,8 @@ struct Pair {
   Placed on_a, on_b;            ///< the parts that face each other; b alone may be a half-space
   RimPart rim = RimPart::none;  ///< not none: a is the cylinder
   /// Out of the shape, in the part's frame: of an edge between its two faces, with n.out >= 1 for
-  /// all n from one's normal to the other's; along the axis for a rim; 0 for an axis.
+  /// all n from one's normal to the other's; along the axis for a rim
+  /// and its points; 0 for an axis.
   Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();
   std::vector<Vec3> inward;    ///< corner, rim: along the edges that meet in it, in its frame; none
                                ///< where it is round or the other has no flat faces
