@@ -40,8 +40,10 @@ set(SALTUS_SOURCES
   cpp/src/collision/hull.cpp
   cpp/src/collision/lay_flat.cpp
   cpp/src/collision/meeting.cpp
+  cpp/src/collision/on_faces.cpp
   cpp/src/collision/pair_table.cpp
   cpp/src/collision/parts.cpp
+  cpp/src/collision/rim_crossing.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/slip.cpp
   cpp/src/collision/solid.cpp

@@ -18,11 +18,14 @@ int count_between(const std::vector<int>& list, int i, int j) {
   return static_cast<int>(std::lower_bound(from, list.end(), j) - from);
 }
 
-/// Shapes alike in their kind and group; convex ones in their number of vertices too, since each
-/// vertex can have a gap of its own.
-std::tuple<std::size_t, std::size_t, int> signature(const Shape& shape, int group) {
+/// Shapes alike in their kind and group; convex ones in their numbers of vertices and edges too,
+/// since each can have a gap of its own.
+using Signature = std::tuple<std::size_t, std::size_t, std::size_t, int>;
+
+Signature signature(const Shape& shape, int group) {
   const auto* convex = std::get_if<Convex>(&shape);
-  return {shape.index(), convex == nullptr ? 0 : convex->hull->vertices.size(), group};
+  if (convex == nullptr) return {shape.index(), 0, 0, group};
+  return {shape.index(), convex->hull->vertices.size(), convex->hull->edges.size(), group};
 }
 
 }  // namespace
@@ -58,7 +61,7 @@ PairTable::PairTable(const std::vector<PlacedShape>& shapes, const PairRules& ru
 }
 
 void PairTable::classify(const std::vector<PlacedShape>& shapes, const PairRules& rules) {
-  std::map<std::tuple<std::size_t, std::size_t, int>, int> known;
+  std::map<Signature, int> known;
   std::map<int, int> bodies;
   std::vector<int> example;  // a shape of each class
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
