@@ -66,6 +66,7 @@ set(SALTUS_SOURCES
   cpp/src/model/topology.cpp
   # variational
   cpp/src/variational/arc.cpp
+  cpp/src/variational/arrival.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/certificate.cpp
   cpp/src/variational/certify.cpp

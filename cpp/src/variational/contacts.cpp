@@ -8,14 +8,6 @@
 namespace saltus {
 namespace {
 
-bool set_velocity_at_node(const ModelData& model, Node& node) {
-  mass_pass(model.packed, node.w);
-  if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
-  node.v = node.p;
-  solve(model.tree, model.packed, node.M, node.v);
-  return node.v.allFinite();
-}
-
 Contact& next_in_pool(Node& node) {
   if (node.touching == static_cast<int>(node.contacts.size())) {
     node.contacts.push_back(fresh_contact(node.trees, node.friction.any));
@@ -57,11 +49,21 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
+  add_contact(model, options, speed, index, pair, g, node);
+  const Contact& c = node.contacts[node.contact_of[index]];
+  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) drop_last_contact(node);
+}
+
+}  // namespace
+
+void add_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                 const Pair& as, const Gap& g, Node& node) {
+  const Pair& pair = node.pool[place];
   Contact& c = next_in_pool(node);
-  add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
-  shape_row(model, node.trees, pair, c.n);
+  add_gap_gradient(model.tree, node.kin, as, g, node.dense);
+  shape_row(model, node.trees, as, c.n);
   take_from(node.trees, node.dense, c.n);
-  c.pair = index;
+  c.pair = place;
   c.phi = g.phi;
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
@@ -69,12 +71,19 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   c.restitution = properties.restitution;
   c.friction = properties.friction;
   classify(node, speed, options.rest, c);
-  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
-  if (c.friction > 0) set_tangents(model, g, pair, node, c);
-  node.contact_of[index] = node.touching++;
+  if (c.friction > 0) set_tangents(model, g, as, node, c);
+  node.contact_of[place] = node.touching++;
 }
 
-}  // namespace
+void drop_last_contact(Node& node) { node.contact_of[node.contacts[--node.touching].pair] = -1; }
+
+bool set_velocity_at_node(const ModelData& model, Node& node) {
+  mass_pass(model.packed, node.w);
+  if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
+  node.v = node.p;
+  solve(model.tree, model.packed, node.M, node.v);
+  return node.v.allFinite();
+}
 
 Contact fresh_contact(const TreeCoordinates& trees, bool with_friction) {
   Contact fresh;
