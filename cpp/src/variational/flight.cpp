@@ -23,21 +23,27 @@ void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pa
   put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
 }
 
-/// Holds a resting pair closed from now on; its gap is brought to exactly 0.
-bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
-  if (f.active == most_constraints) return false;
+/// A hold of a resting pair, its gap to be brought to exactly 0: the next constraint, not active yet.
+ArcConstraint& prepare_hold(const ModelData& model, int pair, const Node& node, Flight& f) {
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
+  --f.active;
   c.pair = &node.pool[pair];
   c.grip = {};
   c.carried.setZero();
   c.axis = tangent_axis(contact.n_W);
   c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
-  if (c.in_face) {
-    hold_in_face(model, contact, *c.pair, node, c);
-  }
+  if (c.in_face) hold_in_face(model, contact, *c.pair, node, c);
   c.n.setZero();
   add(node.trees, 1, contact.n, c.n);
+  return c;
+}
+
+/// Holds a resting pair closed from now on. @return false: no room
+bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
+  if (f.active == most_constraints) return false;
+  prepare_hold(model, pair, node, f);
+  ++f.active;
   node.held[pair] = 1;
   return true;
 }
@@ -86,8 +92,8 @@ Holds update_holds(const ModelData& model, Node& node, Flight& f) {
     if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
     if (!placed) place_end(model, f.arc.q_end, f.scratch);
     placed = true;
-    const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
-    if (g.phi >= floor_of(node, c.pair)) continue;
+    const Pair& pair = prepare_hold(model, c.pair, node, f).watched();
+    if (pair_gap_at_end(model, pair, f.scratch).phi >= floor_of(node, c.pair)) continue;
     if (!hold(model, c.pair, node, f)) return Holds::too_many;
     changed = true;
   }
@@ -233,7 +239,7 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
     : history(model.tree.coordinates),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints),
+      constraints(most_constraints + 1),
       slip(with_friction, model.tree.coordinates) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);

@@ -52,7 +52,7 @@ struct Flight {
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
+  std::vector<ArcConstraint> constraints;  ///< (most_constraints + 1) a pool; `active` are in use
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
