@@ -91,22 +91,27 @@ int face_count(const Convex& convex) { return static_cast<int>(convex.hull->face
 /// A corner in the touch of a solid with faces, or inside: the nearest of those faces along whose
 /// normal its own body is beyond the corner. Another face cannot have stopped it: the corners of
 /// cubes that are stacked edge on edge lie on the upright faces too, and would slide down there.
+/// Of several that it touches and a motion (in the solid's frame) the one that it leaves fastest:
+/// what parts from one face of a convex solid does not meet the solid.
 template <class Solid>
-Gap corner_on_faces(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB) {
+Gap corner_on_faces(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB,
+                    const Vec3& motion) {
   constexpr double flush = 1e-9;  // of the solid's size: as good as on the face, not beside it
   constexpr double tilt = 1e-3;   // [rad] faces that are flat on each other may be apart
   const Vec3 c = in_frame(X_WB, X_WA.p);
   const Mat3 R_BA = X_WB.R.transpose() * X_WA.R;
   const double beside = flush * feature_size(solid);
+  const bool moves = !motion.isZero(0);
   SeenFace best{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
   for (int k = 0; k < face_count(solid); ++k) {
     const SeenFace seen = face(solid, c, k);
     if (seen.e > beside) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
     const Vec3 n_A = R_BA.transpose() * seen.n;
     const auto goes_below = [&](const Vec3& edge) { return n_A.dot(edge) < -tilt; };
-    if (seen.e <= best.e || std::any_of(pair.inward.begin(), pair.inward.end(), goes_below)) {
-      continue;
-    }
+    const bool both_touch =
+        moves && std::abs(seen.e) <= pair.touch && std::abs(best.e) <= pair.touch;
+    const bool better = both_touch ? seen.n.dot(motion) > best.n.dot(motion) : seen.e > best.e;
+    if (!better || std::any_of(pair.inward.begin(), pair.inward.end(), goes_below)) continue;
     best = seen;
   }
   if (!std::isfinite(best.e)) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
@@ -167,12 +172,19 @@ std::string pair_name(const std::vector<PlacedShape>& shapes, const Pair& pair) 
 }
 
 Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
+  return part_gap(pair, X_WA, X_WB, Vec3::Zero());
+}
+
+Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W) {
   if (pair.kind == PairKind::crossing) return crossing_gap(pair, X_WA, X_WB);
   if (!pair.inward.empty()) {
+    const Vec3 motion = X_WB.R.transpose() * motion_W;
     const Shape& solid = pair.on_b.shape;
-    if (const auto* box = std::get_if<Box>(&solid)) return corner_on_faces(pair, *box, X_WA, X_WB);
+    if (const auto* box = std::get_if<Box>(&solid)) {
+      return corner_on_faces(pair, *box, X_WA, X_WB, motion);
+    }
     if (const auto* convex = std::get_if<Convex>(&solid)) {
-      return corner_on_faces(pair, *convex, X_WA, X_WB);
+      return corner_on_faces(pair, *convex, X_WA, X_WB, motion);
     }
   }
   return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "saltus/collision/slip.hpp"
 #include "variational/node.hpp"
 
 namespace saltus {
@@ -40,6 +41,19 @@ void note_silent(const ModelData& model, double near, int index, const Gap& g, N
   node.silent.push_back(index);
 }
 
+/// [m/s] of a against b at a point. `row` is scratch.
+Vec3 motion_of_point(const ModelData& model, const Pair& pair, const Vec3& P_W, Node& node,
+                     ContactVector& row) {
+  Vec3 motion;
+  for (int k = 0; k < 3; ++k) {
+    add_motion_gradient(model.tree, node.kin, pair, P_W, Vec3::Unit(k), node.dense);
+    shape_row(model, node.trees, pair, row);
+    take_from(node.trees, node.dense, row);
+    motion[k] = dot(node.trees, row, node.v);
+  }
+  return motion;
+}
+
 /// Adds the pair to the contacts if it touches, or would within epsilon_t h.
 void add_if_touching(const ModelData& model, const StepOptions& options, double speed, int index,
                      Node& node) {
@@ -50,7 +64,13 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
   add_contact(model, options, speed, index, pair, g, node);
-  const Contact& c = node.contacts[node.contact_of[index]];
+  Contact& c = node.contacts[node.contact_of[index]];
+  if (c.motion == Contact::Motion::approaches && !pair.inward.empty()) {
+    const Vec3 motion = motion_of_point(model, pair, contact_point(g), node, c.column);
+    const Gap other = pair_gap(model.tree, node.kin, pair, motion);
+    drop_last_contact(node);
+    add_contact(model, options, speed, index, pair, other, node);
+  }
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) drop_last_contact(node);
 }
 
