@@ -63,23 +63,26 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
-  add_contact(model, options, speed, index, pair, g, node);
+  write_contact(model, options, speed, index, pair, g, node);
   Contact& c = node.contacts[node.contact_of[index]];
   if (c.motion == Contact::Motion::approaches && !pair.inward.empty()) {
     const Vec3 motion = motion_of_point(model, pair, contact_point(g), node, c.column);
     const Gap other = pair_gap(model.tree, node.kin, pair, motion);
-    drop_last_contact(node);
-    add_contact(model, options, speed, index, pair, other, node);
+    write_contact(model, options, speed, index, pair, other, node);
   }
   if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) drop_last_contact(node);
 }
 
 }  // namespace
 
-void add_contact(const ModelData& model, const StepOptions& options, double speed, int place,
-                 const Pair& as, const Gap& g, Node& node) {
+void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                   const Pair& as, const Gap& g, Node& node) {
   const Pair& pair = node.pool[place];
-  Contact& c = next_in_pool(node);
+  if (node.contact_of[place] < 0) {
+    next_in_pool(node);
+    node.contact_of[place] = node.touching++;
+  }
+  Contact& c = node.contacts[node.contact_of[place]];
   add_gap_gradient(model.tree, node.kin, as, g, node.dense);
   shape_row(model, node.trees, as, c.n);
   take_from(node.trees, node.dense, c.n);
@@ -92,7 +95,6 @@ void add_contact(const ModelData& model, const StepOptions& options, double spee
   c.friction = properties.friction;
   classify(node, speed, options.rest, c);
   if (c.friction > 0) set_tangents(model, g, as, node, c);
-  node.contact_of[place] = node.touching++;
 }
 
 void drop_last_contact(Node& node) { node.contact_of[node.contacts[--node.touching].pair] = -1; }

@@ -23,7 +23,8 @@ void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pa
   put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
 }
 
-/// A hold of a resting pair, its gap to be brought to exactly 0: the next constraint, not active yet.
+/// A hold of a resting pair, its gap to be brought to exactly 0: the next constraint, not active
+/// yet.
 ArcConstraint& prepare_hold(const ModelData& model, int pair, const Node& node, Flight& f) {
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);

@@ -84,9 +84,10 @@ Contact fresh_contact(const TreeCoordinates& trees, bool with_friction);
 
 Contact::Motion motion_of(double u, double epsilon_u);
 
-/// Adds a pair to the contacts, with gap `g` and rows of the pair `as`. Needs M and v.
-void add_contact(const ModelData& model, const StepOptions& options, double speed, int place,
-                 const Pair& as, const Gap& g, Node& node);
+/// Writes the contact of a pair, with gap `g` and rows of the pair `as`; adds it if it is new.
+/// Needs M and v.
+void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                   const Pair& as, const Gap& g, Node& node);
 
 void drop_last_contact(Node& node);
 
