@@ -84,6 +84,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/grip.cpp
+  cpp/src/variational/holds.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp

@@ -58,6 +58,7 @@ struct Flight {
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
+  std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
   SlipScratch slip;
 };
 
