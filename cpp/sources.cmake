@@ -68,6 +68,7 @@ set(SALTUS_SOURCES
   cpp/src/model/topology.cpp
   # variational
   cpp/src/variational/arc.cpp
+  cpp/src/variational/arrival.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/certificate.cpp
   cpp/src/variational/certify.cpp
@@ -85,6 +86,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/grip.cpp
+  cpp/src/variational/holds.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp

@@ -55,9 +55,14 @@ std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a
 }
 
 Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
+  return pair_gap(tree, kin, pair, Vec3::Zero());
+}
+
+Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair, const Vec3& motion_W) {
   const Placed &a = pair.on_a, &b = pair.on_b;
   const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
-  Gap g = part_gap(pair, pose_from(tree, kin, a, origin), pose_from(tree, kin, b, origin));
+  const Pose X_WA = pose_from(tree, kin, a, origin), X_WB = pose_from(tree, kin, b, origin);
+  Gap g = part_gap(pair, X_WA, X_WB, motion_W);
   g.p_WA += origin;
   g.p_WB += origin;
   g.center_W += origin;

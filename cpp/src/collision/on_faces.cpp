@@ -3,6 +3,9 @@
 // cubes that are stacked edge on edge lie on the upright faces too, and would slide down there. A
 // rim likewise: those of cans that lie side by side, end by end, are on each other's caps too.
 //
+// Of several faces that a corner touches while it moves, the one that it leaves fastest bears it:
+// what parts from one face of a convex solid does not meet the solid.
+//
 // The lowest point of a rim over a flat face is in closed form, as over a half-space.
 #include "collision/on_faces.hpp"
 
@@ -57,18 +60,25 @@ bool goes_below(const Pair& pair, const Vec3& n_A) {
   return std::any_of(pair.inward.begin(), pair.inward.end(), below);
 }
 
+/// `motion` is of the corner, in the solid's frame.
 template <class Solid>
-Gap corner_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB) {
+Gap corner_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB,
+              const Vec3& motion) {
   const Vec3 c = in_frame(X_WB, X_WA.p);
   const Mat3 R_BA = X_WB.R.transpose() * X_WA.R;
   const double beside = flush * feature_size(solid);
   SeenFace best{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
   double highest = best.e;
+  const auto touches = [&](const SeenFace& seen) { return std::abs(seen.e) <= pair.touch; };
+  const bool moves = !motion.isZero(0);
   for (int k = 0; k < face_count(solid); ++k) {
     const SeenFace seen = face(solid, c, k);
     highest = std::fmax(highest, seen.e);
     if (seen.e > beside) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
-    if (seen.e <= best.e || goes_below(pair, R_BA.transpose() * seen.n)) continue;
+    const bool better = moves && touches(seen) && touches(best)
+                            ? seen.n.dot(motion) > best.n.dot(motion)
+                            : seen.e > best.e;
+    if (!better || goes_below(pair, R_BA.transpose() * seen.n)) continue;
     best = seen;
   }
   // a far side is not where it came in
@@ -135,12 +145,13 @@ bool has_flat_faces(const Shape& shape) {
          std::holds_alternative<Cylinder>(shape);
 }
 
-Gap corner_on_faces(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
+Gap corner_on_faces(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W) {
+  const Vec3 motion = X_WB.R.transpose() * motion_W;
+  const auto on = [&](const auto& solid) { return corner_on(pair, solid, X_WA, X_WB, motion); };
   const Shape& solid = pair.on_b.shape;
-  if (const auto* box = std::get_if<Box>(&solid)) return corner_on(pair, *box, X_WA, X_WB);
-  if (const auto* convex = std::get_if<Convex>(&solid)) return corner_on(pair, *convex, X_WA, X_WB);
-  const auto* cylinder = std::get_if<Cylinder>(&solid);
-  if (cylinder != nullptr) return corner_on(pair, *cylinder, X_WA, X_WB);
+  if (const auto* box = std::get_if<Box>(&solid)) return on(*box);
+  if (const auto* convex = std::get_if<Convex>(&solid)) return on(*convex);
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return on(*cylinder);
   return gap(pair.on_a.shape, X_WA, solid, X_WB);
 }
 

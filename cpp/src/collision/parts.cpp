@@ -174,12 +174,16 @@ std::string pair_name(const std::vector<PlacedShape>& shapes, const Pair& pair) 
 }
 
 Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
+  return part_gap(pair, X_WA, X_WB, Vec3::Zero());
+}
+
+Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W) {
   if (pair.kind == PairKind::crossing) {
     return pair.rim == RimPart::none ? crossing_gap(pair, X_WA, X_WB)
                                      : rim_crossing_gap(pair, X_WA, X_WB);
   }
   if (pair.rim != RimPart::none) return rim_on_faces(pair, X_WA, X_WB);
-  if (!pair.inward.empty()) return corner_on_faces(pair, X_WA, X_WB);
+  if (!pair.inward.empty()) return corner_on_faces(pair, X_WA, X_WB, motion_W);
   return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
 }
 

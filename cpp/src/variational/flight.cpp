@@ -3,102 +3,20 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
-#include "saltus/collision/slip.hpp"
 #include "variational/flight_friction.hpp"
+#include "variational/holds.hpp"
 #include "variational/impact_time.hpp"
 #include "variational/launch.hpp"
 
 namespace saltus {
 namespace {
 
-/// A sharp corner that slides over the border of a face has no normal there: it is held in the
-/// plane of the face, and at the next node it is beside it and free.
-void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pair,
-                  const Node& node, ArcConstraint& c) {
-  c.face.kind = PairKind::whole;
-  c.face.on_a = pair.on_a;
-  c.face.on_b.joint = pair.on_b.joint;
-  c.face.chain = pair.chain;  // no allocation: room for the deepest is reserved
-  c.face.touch = pair.touch;
-  put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
-}
-
-/// Holds a resting pair closed from now on; its gap is brought to exactly 0.
-bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
-  if (f.active == most_constraints) return false;
-  const Contact& contact = node.contacts[node.contact_of[pair]];
-  ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
-  c.pair = &node.pool[pair];
-  c.grip = {};
-  c.carried.setZero();
-  c.axis = tangent_axis(contact.n_W);
-  c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
-  if (c.in_face) {
-    hold_in_face(model, contact, *c.pair, node, c);
-  }
-  c.n.setZero();
-  add(node.trees, 1, contact.n, c.n);
-  node.held[pair] = 1;
-  return true;
-}
-
-void release(int i, Node& node, Flight& f) {
-  node.held[f.constraints[i].place] = 0;
-  std::swap(f.constraints[i], f.constraints[f.active - 1]);
-  --f.active;
-}
-
-bool start_constraints(const ModelData& model, Node& node, Flight& f) {
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (!node.held[c.pair]) continue;
-    if (c.motion != Contact::Motion::rests) {
-      node.held[c.pair] = 0;
-    } else if (!hold(model, c.pair, node, f)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// The gap below which a pair that rests at the node is pressed: it may not sink any further.
-double floor_of(const Node& node, int pair) {
-  const int contact = node.contact_of[pair];
-  const double phi = contact < 0 ? node.sunk[pair] : node.contacts[contact].phi;
-  return std::min(0.0, phi) - node.pool[pair].touch;
-}
-
-enum class Holds { unchanged, changed, too_many };
-
-/// Complementarity of sustained contacts over the arc just solved: pressed pairs are held, held
-/// pairs that would have to be pulled are released. Each pair may change its mind twice.
-Holds update_holds(const ModelData& model, Node& node, Flight& f) {
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || c.lambda >= 0 || f.flips[c.place] >= 2) continue;
-    ++f.flips[c.place];
-    release(i, node, f);
-    return Holds::changed;
-  }
-  bool changed = false, placed = false;
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
-    if (!placed) place_end(model, f.arc.q_end, f.scratch);
-    placed = true;
-    const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
-    if (g.phi >= floor_of(node, c.pair)) continue;
-    if (!hold(model, c.pair, node, f)) return Holds::too_many;
-    changed = true;
-  }
-  return changed ? Holds::changed : Holds::unchanged;
-}
-
 /// A pair met for the first time in this flight.
 void fit(int pairs, Flight& f) {
   if (static_cast<int>(f.passed.size()) >= pairs) return;
   f.passed.resize(static_cast<std::size_t>(pairs), 0);
   f.flips.resize(static_cast<std::size_t>(pairs), 0);
+  f.level.resize(static_cast<std::size_t>(pairs), 0);
 }
 
 bool is_clear_on_chord(const ModelData& model, const Pair& solid, const Node& node) {
@@ -181,8 +99,9 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   fit(node.pool.size(), f);
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
+  std::fill(f.level.begin(), f.level.end(), 0);
   f.active = 0;
-  if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
+  if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any && !start_grips(left, node, f)) return FlightOutcome::too_many_contacts;
   return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived
                                                         : FlightOutcome::not_converged;
@@ -233,7 +152,7 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
     : history(model.tree.coordinates),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints),
+      constraints(most_constraints + 1),
       slip(with_friction, model.tree.coordinates) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);

@@ -52,12 +52,13 @@ struct Flight {
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  std::vector<ArcConstraint> constraints;  ///< (most_constraints) a pool; `active` are in use
+  std::vector<ArcConstraint> constraints;  ///< (most_constraints + 1) a pool; `active` are in use
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
+  std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
   SlipScratch slip;
 };
 

@@ -84,6 +84,16 @@ Contact fresh_contact(const TreeCoordinates& trees, bool with_friction);
 
 Contact::Motion motion_of(double u, double epsilon_u);
 
+/// Writes the contact of a pair, with gap `g` and rows of the pair `as`; adds it if it is new.
+/// Needs M and v.
+void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                   const Pair& as, const Gap& g, Node& node);
+
+void drop_last_contact(Node& node);
+
+/// M and v = M^-1 p at the node. @return false where the mass matrix is singular
+bool set_velocity_at_node(const ModelData& model, Node& node);
+
 /// Writes u, epsilon_u and motion from n and the node's v. Needs typical_speed.
 void classify(const Node& node, double speed, double relative, Contact& c);
 

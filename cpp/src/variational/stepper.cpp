@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "variational/arrival.hpp"
 #include "variational/check_options.hpp"
 #include "variational/flight_friction.hpp"
 #include "variational/impact_time.hpp"
@@ -154,12 +155,7 @@ void Stepper::Impl::fly_one_arc(double left) {
 // Ends the arc at a node, and resolves the impact there if there is one.
 void Stepper::Impl::arrive(double t) {
   if (t > node.t || report.arcs > 0) {
-    node.t = t;
-    node.q = flight.arc.q_end;
-    node.p = flight.arc.p_end;
-    node.v = flight.arc.v;
-    if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
-    settle_held_contacts(*model, node);
+    if (!arrive_at_node(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
   }
   if (!impact_pending(node)) return;
   if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();

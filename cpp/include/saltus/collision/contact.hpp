@@ -80,6 +80,9 @@ SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_
 
 /// Gap of a pair at the configuration in `kin`; see part_gap. Needs set_configuration.
 SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair);
+/// Likewise, where a moves by `motion_W` against b.
+SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                           const Vec3& motion_W);
 
 /// True where the pair is of parts that do not face each other there; see parts.hpp.
 SALTUS_EXPORT bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair,

@@ -42,6 +42,11 @@ SALTUS_EXPORT std::string pair_name(const std::vector<PlacedShape>& shapes, cons
 /// on smoothly, and means nothing there: is_silent tells. phi is infinite between parallel edges.
 SALTUS_EXPORT Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB);
 
+/// The same where a moves by `motion_W` against b: it decides where a corner is on several faces at
+/// once, of which it leaves one fastest. phi is the greatest of their heights, and grows as that.
+SALTUS_EXPORT Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB,
+                           const Vec3& motion_W);
+
 /// True where the part does not face the other: edges that do not cross, a whole or a rim whose
 /// nearest point has a gap of its own, the rim of a cylinder that stands.
 SALTUS_EXPORT bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap);

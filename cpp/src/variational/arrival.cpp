@@ -1,0 +1,52 @@
+#include "variational/arrival.hpp"
+
+namespace saltus {
+namespace {
+
+constexpr double same_face = 0.1;  ///< [rad] between normals, at most
+
+/// What the arc held in the plane of a face is on that face as long as it touches it: at its border
+/// it is on another one too. What is beyond is added as a contact with the plane.
+/// @return false where the mass matrix is singular.
+bool keep_in_faces(const ModelData& model, const StepOptions& options, const Flight& f,
+                   Node& node) {
+  for (int i = 0; i < f.active; ++i) {
+    const ArcConstraint& c = f.constraints[i];
+    if (c.kind != ArcConstraint::Kind::hold || !c.in_face) continue;
+    const Gap g = pair_gap(model.tree, node.kin, c.face);
+    const int contact = node.contact_of[c.place];
+    if (contact >= 0 && (node.contacts[contact].n_W - g.n_W).norm() < same_face) continue;
+    // where no pair is near nothing was asked of the node's v
+    if (node.broad.candidates.empty() && !set_velocity_at_node(model, node)) return false;
+    const double speed = typical_speed(model, options, node);
+    write_contact(model, options, speed, c.place, c.face, g, node);
+    node.held[c.place] = 1;
+  }
+  return true;
+}
+
+/// Takes off what was added beyond the first `touching`.
+void drop_added(int touching, Node& node) {
+  while (node.touching > touching) {
+    node.held[node.contacts[node.touching - 1].pair] = 0;
+    drop_last_contact(node);
+  }
+}
+
+}  // namespace
+
+bool arrive_at_node(const ModelData& model, const StepOptions& options, double t, Flight& f,
+                    Node& node) {
+  node.t = t;
+  node.q = f.arc.q_end;
+  node.p = f.arc.p_end;
+  node.v = f.arc.v;
+  if (!find_contacts(model, options, node)) return false;
+  const int touching = node.touching;
+  if (!keep_in_faces(model, options, f, node)) return false;
+  settle_held_contacts(model, node);
+  drop_added(touching, node);
+  return true;
+}
+
+}  // namespace saltus
