@@ -47,6 +47,7 @@ set(SALTUS_TEST_model
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_borders.cpp
   variational/test_certificate.cpp
   variational/test_contact_space.cpp
   variational/test_cradle.cpp

@@ -5,21 +5,22 @@ namespace {
 
 constexpr double same_face = 0.1;  ///< [rad] between normals, at most
 
-/// What the arc held in the plane of a face is on that face as long as it touches it: at its border
-/// it is on another one too. What is beyond is added as a contact with the plane.
+/// What the arc held and what does not face the other any more, as a contact: corners with the
+/// plane of their face, edges with the line of the other. A corner on the border of its face is on
+/// another one too, but stays on that where it was held.
 /// @return false where the mass matrix is singular.
-bool keep_in_faces(const ModelData& model, const StepOptions& options, const Flight& f,
-                   Node& node) {
+bool keep_held(const ModelData& model, const StepOptions& options, const Flight& f, Node& node) {
   for (int i = 0; i < f.active; ++i) {
     const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || !c.in_face) continue;
-    const Gap g = pair_gap(model.tree, node.kin, c.face);
+    if (c.kind != ArcConstraint::Kind::hold) continue;
     const int contact = node.contact_of[c.place];
+    if (contact >= 0 && !c.in_face) continue;
+    const Gap g = pair_gap(model.tree, node.kin, c.watched());
     if (contact >= 0 && (node.contacts[contact].n_W - g.n_W).norm() < same_face) continue;
     // where no pair is near nothing was asked of the node's v
     if (node.broad.candidates.empty() && !set_velocity_at_node(model, node)) return false;
     const double speed = typical_speed(model, options, node);
-    write_contact(model, options, speed, c.place, c.face, g, node);
+    write_contact(model, options, speed, c.place, c.watched(), g, node);
     node.held[c.place] = 1;
   }
   return true;
@@ -43,7 +44,7 @@ bool arrive_at_node(const ModelData& model, const StepOptions& options, double t
   node.v = f.arc.v;
   if (!find_contacts(model, options, node)) return false;
   const int touching = node.touching;
-  if (!keep_in_faces(model, options, f, node)) return false;
+  if (!keep_held(model, options, f, node)) return false;
   settle_held_contacts(model, node);
   drop_added(touching, node);
   return true;

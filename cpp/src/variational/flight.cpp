@@ -120,13 +120,38 @@ FlightOutcome update_contacts(const ModelData& model, const StepOptions& options
   return FlightOutcome::arrived;
 }
 
+/// An end of a rod whose axis is held on an edge, where the edge comes to that end: the two touch
+/// in the same point, and that of the end only grazes.
+bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight& f) {
+  const Pair& pair = node.pool[end];
+  const auto* ball = std::get_if<Sphere>(&pair.on_a.shape);
+  if (pair.kind != PairKind::corner || ball == nullptr || !(ball->radius > 0)) return false;
+  place_end(model, f.arc.q_end, f.scratch);
+  const Vec3 p_WA = pair_gap_at_end(model, pair, f.scratch).p_WA;
+  constexpr double same_point = 1e-3;  // of the radius
+  for (int i = 0; i < f.active; ++i) {
+    const ArcConstraint& c = f.constraints[i];
+    if (c.kind != ArcConstraint::Kind::hold || node.pool.solid(c.place) != node.pool.solid(end) ||
+        c.pair->kind != PairKind::crossing) {
+      continue;
+    }
+    const Gap g = pair_gap_at_end(model, *c.pair, f.scratch);
+    const double apart = std::min((g.p_WA - p_WA).norm(), (g.p_WB - p_WA).norm());
+    if (apart < same_point * ball->radius) return true;
+  }
+  return false;
+}
+
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
 ImpactTime shorten(const ModelData& model, const StepOptions& options, const FirstHit& hit,
                    double tau, Node& node, Flight& f) {
   const bool hop = is_hop(node, hit.pair);
   f.start_v = f.arc.v;
   f.closing = hit.pair;
-  const ImpactTime found = find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f);
+  ImpactTime found = find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f);
+  if (found == ImpactTime::found && grazes_with_axis(model, hit.pair, node, f)) {
+    found = ImpactTime::missed;
+  }
   if (found == ImpactTime::found) {
     // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far from
     // the origin the chord tells gaps apart no better than their rounding).

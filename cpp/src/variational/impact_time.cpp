@@ -87,7 +87,8 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
     f.arc.v += (next - tau) * f.rate;
     tau = next;
   }
-  return ImpactTime::not_located;
+  // no duration was found at which the gap is closed: it grazes, a double root and no impact
+  return b.hi_is_closed ? ImpactTime::not_located : ImpactTime::missed;
 }
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
