@@ -26,6 +26,25 @@ bool keep_held(const ModelData& model, const StepOptions& options, const Flight&
   return true;
 }
 
+/// What rests at the node, before the arc's end becomes the node.
+void note_resting(Node& node) {
+  node.rested.clear();
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.motion == Contact::Motion::rests) node.rested.push_back(c.pair);
+  }
+}
+
+/// What rested at the arc's start, was not pressed, and still touches has not come here by itself:
+/// its approach is the half kick's.
+void keep_rested(Node& node) {
+  for (const int pair : node.rested) {
+    const int contact = node.contact_of[pair];
+    if (contact < 0 || node.contacts[contact].motion != Contact::Motion::approaches) continue;
+    node.held[pair] = 1;
+  }
+}
+
 /// Takes off what was added beyond the first `touching`.
 void drop_added(int touching, Node& node) {
   while (node.touching > touching) {
@@ -42,9 +61,11 @@ bool arrive_at_node(const ModelData& model, const StepOptions& options, double t
   node.q = f.arc.q_end;
   node.p = f.arc.p_end;
   node.v = f.arc.v;
+  note_resting(node);
   if (!find_contacts(model, options, node)) return false;
   const int touching = node.touching;
   if (!keep_held(model, options, f, node)) return false;
+  keep_rested(node);
   settle_held_contacts(model, node);
   drop_added(touching, node);
   return true;

@@ -83,7 +83,9 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
     }
     if (!b.hi_is_closed && g.slope >= 0) return ImpactTime::missed;
     phi_before = std::abs(g.phi);
-    const double next = next_tau(b, tau, g);
+    // slopes leave constraints aside, and may lead nowhere
+    const bool halve = k >= 10 && b.hi_is_closed;
+    const double next = halve ? (b.lo + b.hi) / 2 : next_tau(b, tau, g);
     f.arc.v += (next - tau) * f.rate;
     tau = next;
   }

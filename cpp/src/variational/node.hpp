@@ -73,6 +73,7 @@ struct Node {
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
   std::vector<int> silent;  ///< pairs with an entry in `sunk`
+  std::vector<int> rested;  ///< pairs that rested at the node before
   double total_mass = 0;
   double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
