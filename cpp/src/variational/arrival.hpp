@@ -1,11 +1,13 @@
 // The end of an arc: what touches there, and the closing half kick.
 //
-// p_end = p_start + tau L_q has the second half of the gravity, ... of the whole arc in it, and
+// p_end = p_start + tau L_q has the second half of gravity's and all other forces' kick in it, and
 // what the arc held closed takes that up: a plastic projection onto the rates of the arc's own
-// constraints. Those are not the contacts of the node. A corner that is held in the plane of a face
-// may have slid over its border, and bore its load to the end; without it the half kick would be
-// taken for an approach of what comes next there: of the edges that cross at the border, or of a
-// second table. With it they find a body at rest, u = 0, and the next arc presses them.
+// constraints. Those are not the contacts of the node. A corner may have slid over the border of
+// its face, an edge off another's end, and bore the load to the arc's end; without it the half kick
+// would be taken for an approach of what comes next there: edges that cross at the border, a second
+// table, a corner that has come onto the face. With it they find a body at rest, u = 0, and the
+// next arc presses them. Where it bore the load is off by what it slid in one arc, O(h), for that
+// arc.
 #pragma once
 
 #include "variational/flight.hpp"

@@ -62,6 +62,18 @@ void release(int i, Node& node, Flight& f) {
   --f.active;
 }
 
+/// True where the rod of an end rests on an edge of the same solid already.
+bool rests_on_edge(int end, const Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.motion == Contact::Motion::rests && node.pool[c.pair].kind == PairKind::crossing &&
+        node.pool.solid(c.pair) == node.pool.solid(end)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// The round end of a rod goes round the border of a face, if the rod lies along the border. One
 /// that lies across it is borne by the border behind its end, which stays level: where the rod as a
 /// whole sinks, though its ends do not, they are held in the plane of the face from now on.
@@ -88,6 +100,10 @@ bool level_rods(const ModelData& model, Node& node, Flight& f) {
 }  // namespace
 
 bool start_holds(const ModelData& model, Node& node, Flight& f) {
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (is_rod_end(model, node.pool[c.pair])) f.level[c.pair] = rests_on_edge(c.pair, node);
+  }
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (!node.held[c.pair]) continue;

@@ -15,6 +15,14 @@ struct Table {
 };
 const Table one = {-1, 2}, next = {1, 2};
 
+/// From the first table's border on; both ends of a body that is twice as long come to seams at
+/// once.
+std::vector<Table> planks() {
+  std::vector<Table> all = {{-1.2, 2}};
+  for (int k = 0; k < 6; ++k) all.push_back({0.8 + 0.2 * k, 0.2});
+  return all;
+}
+
 struct Scene {
   std::vector<Table> tables;
   bool rod = false;  ///< a capsule along x, else a box
@@ -124,7 +132,19 @@ TEST(Borders, ABoxSlidesOverTheSeamOfTwoTables) {
 }
 
 TEST(Borders, ARodSlidesOverTheSeamOfTwoTables) {
-  expect_straight_on({.tables = {one, next}, .rod = true}, 0, 0.005, 200);
+  for (const double h : {0.005, 0.003}) {
+    const int steps = static_cast<int>(1.4 / h);
+    expect_straight_on({.tables = {one, next}, .rod = true}, 0, h, steps);
+    expect_straight_on({.tables = {one, next}, .rod = true, .yaw = 0.3}, 0, h, steps);
+  }
+}
+
+TEST(Borders, ABoxSlidesOverPlanks) {
+  for (const double h : {0.005, 0.003}) {
+    const int steps = static_cast<int>(1 / h);
+    expect_straight_on({.tables = planks()}, 0, h, steps);
+    expect_straight_on({.tables = planks(), .yaw = 0.3}, 1, h, steps);
+  }
 }
 
 // It tips about the border while it slides, on crossing edges: no impact, and the energy of the
@@ -142,6 +162,17 @@ TEST(Borders, WhatTipsOverTheEdgeKeepsItsEnergyToSecondOrder) {
   }
 }
 
+// Its end comes to the edge that bears its axis, leaves it at a tangent, and falls: no impact.
+TEST(Borders, ARodTipsAndLeavesTheEdge) {
+  const Model model = slide({.tables = {one}, .rod = true});
+  for (const double h : {0.01, 0.006, 0.003}) {
+    const Slid r = go(model, 1, 0, h, static_cast<int>(0.9 / h));
+    EXPECT_EQ(r.impacts, 0);
+    EXPECT_LE(r.gained, 5 * h * h);
+    EXPECT_GT(r.end.q[model.coordinate("x_x")], 0.85);
+  }
+}
+
 // All corners and edges slide alike, whoever bears the load: x = v t - mu g t^2 / 2.
 TEST(Borders, FrictionIsTheSameOnBothSidesOfTheEdge) {
   const double mu = 0.1, h = 0.005;
@@ -151,6 +182,16 @@ TEST(Borders, FrictionIsTheSameOnBothSidesOfTheEdge) {
   EXPECT_EQ(r.impacts, 0);
   EXPECT_LE(r.off_level, still);
   EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.2 * t - mu * 9.81 * t * t / 2, still);
+}
+
+TEST(Borders, FrictionIsTheSameOnBothSidesOfASeam) {
+  const double mu = 0.1, h = 0.005;
+  const Model model = slide({.tables = {one, next}, .friction = mu});
+  const Slid r = go(model, 1.5, 0, h, 140);
+  const double t = 140 * h;
+  EXPECT_EQ(r.impacts, 0);
+  EXPECT_LE(r.off_level, still);
+  EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.5 * t - mu * 9.81 * t * t / 2, still);
 }
 
 TEST(Borders, BoxesWithFrictionTipOverTheEdge) {
