@@ -1,5 +1,7 @@
 #include "variational/arrival.hpp"
 
+#include <cmath>
+
 namespace saltus {
 namespace {
 
@@ -17,6 +19,7 @@ bool keep_held(const ModelData& model, const StepOptions& options, const Flight&
     if (contact >= 0 && !c.in_face) continue;
     const Gap g = pair_gap(model.tree, node.kin, c.watched());
     if (contact >= 0 && (node.contacts[contact].n_W - g.n_W).norm() < same_face) continue;
+    if (!std::isfinite(g.phi)) continue;  // edges that have come to be parallel
     // where no pair is near nothing was asked of the node's v
     if (node.broad.candidates.empty() && !set_velocity_at_node(model, node)) return false;
     const double speed = typical_speed(model, options, node);
