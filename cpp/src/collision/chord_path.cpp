@@ -102,7 +102,9 @@ void descend_to_b(const Chord& chord, double s, MovingFrame& F) {
 /// The frame of a's part as b sees it.
 MovingFrame see_a(const Chord& chord, double s) {
   const std::vector<ChainJoint>& chain = chord.pair.chain;
-  MovingFrame F = frame_of(chord.a(), chord.a_is_ball() ? 1 : 4);
+  // a ball looks the same however it turns, but which face bears a corner is told by its edges
+  const bool turns = !chord.a_is_ball() || !chord.pair.inward.empty();
+  MovingFrame F = frame_of(chord.a(), turns ? 4 : 1);
   rise(chord, +1, s, chain.rbegin(), chain.rend(), F);
   if (!chord.b_is_sphere()) {
     descend_to_b(chord, s, F);
