@@ -22,7 +22,7 @@ SHAPES = {
     "ellipsoid": Ellipsoid((0.2, 0.3, 0.4)),
     "convex": Convex(TETRAHEDRON),
 }
-# Gaps of a model with one of each: parts that can bear load. A hull has 4 vertices and 6 edges here.
+# Gaps of a model with one of each: parts that can bear load. The hull has 4 vertices, 6 edges.
 GAPS = {
     ("box", "box"): 8 + 8 + 12 * 12,
     ("box", "capsule"): 8 + 2 + 12,
