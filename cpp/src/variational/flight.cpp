@@ -211,6 +211,9 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         return FlightOutcome::arrived;
       }
       found = shorten(model, options, hit, tau, node, f);
+    } else if (level_held_ends(model, node, f)) {
+      f.arc.v = node.v;
+      continue;
     }
     if (found == ImpactTime::not_located) return FlightOutcome::impact_not_located;
     if (found == ImpactTime::settles && impact_pending(node)) {

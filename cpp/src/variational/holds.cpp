@@ -74,6 +74,18 @@ bool rests_on_edge(int end, const Node& node) {
   return false;
 }
 
+/// Holds the end of a rod in the plane of its face from now on, and anew if it is held.
+void level_end(const ModelData& model, int pair, Node& node, Flight& f) {
+  f.level[pair] = 1;
+  for (int k = 0; k < f.active; ++k) {
+    const ArcConstraint& held = f.constraints[k];
+    if (held.kind != ArcConstraint::Kind::hold || held.place != pair) continue;
+    release(k, node, f);
+    hold(model, pair, node, f);
+    return;
+  }
+}
+
 /// The round end of a rod goes round the border of a face, if the rod lies along the border. One
 /// that lies across it is borne by the border behind its end, which stays level: where the rod as a
 /// whole sinks, though its ends do not, they are held in the plane of the face from now on.
@@ -86,18 +98,24 @@ bool level_rods(const ModelData& model, Node& node, Flight& f) {
     place_end(model, f.arc.q_end, f.scratch);
     const Gap whole = pair_gap_at_end(model, *node.pool.solid(c.pair), f.scratch);
     if (whole.phi >= floor_of(node, c.pair)) continue;
-    f.level[c.pair] = changed = true;
-    for (int k = 0; k < f.active; ++k) {
-      const ArcConstraint& held = f.constraints[k];
-      if (held.kind != ArcConstraint::Kind::hold || held.place != c.pair) continue;
-      release(k, node, f);
-      hold(model, c.pair, node, f);
-    }
+    level_end(model, c.pair, node, f);
+    changed = true;
   }
   return changed;
 }
 
 }  // namespace
+
+bool level_held_ends(const ModelData& model, Node& node, Flight& f) {
+  bool changed = false;
+  for (int i = 0; i < node.touching; ++i) {
+    const int pair = node.contacts[i].pair;
+    if (!node.held[pair] || f.level[pair] || !is_rod_end(model, node.pool[pair])) continue;
+    level_end(model, pair, node, f);
+    changed = true;
+  }
+  return changed;
+}
 
 bool start_holds(const ModelData& model, Node& node, Flight& f) {
   for (int i = 0; i < node.touching; ++i) {

@@ -20,6 +20,11 @@ enum class Holds { unchanged, changed, too_many };
 /// released. Each pair may change its mind twice.
 Holds update_holds(const ModelData& model, Node& node, Flight& flight);
 
+/// For an arc without a solution: one that holds the round end of a rod on two flush tables can
+/// follow neither round its border. All ends are held in the planes of their faces from now on.
+/// @return false if they are already
+bool level_held_ends(const ModelData& model, Node& node, Flight& flight);
+
 /// The gap below which a pair that rests at the node is pressed: it may not sink any further.
 double floor_of(const Node& node, int pair);
 

@@ -139,6 +139,17 @@ TEST(Borders, ARodSlidesOverTheSeamOfTwoTables) {
   }
 }
 
+// A step ends where the middle of the round end is over the seam to the last bit or nearly: it is
+// held by both tables, and the next step has to let it follow neither border.
+TEST(Borders, ARodsEndStopsOverTheSeam) {
+  for (const double at : {0.4, 0.5, 0.6, 0.7, 0.8, 0.75}) {
+    for (const double h : {0.005, 0.01}) {
+      const int steps = static_cast<int>(0.5 / h);
+      expect_straight_on({.tables = {one, next}, .rod = true, .at = at}, 0, h, steps);
+    }
+  }
+}
+
 TEST(Borders, ABoxSlidesOverPlanks) {
   for (const double h : {0.005, 0.003}) {
     const int steps = static_cast<int>(1 / h);
