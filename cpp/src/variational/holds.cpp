@@ -31,7 +31,7 @@ void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pa
 }
 
 /// A hold of a resting pair, its gap to be brought to exactly 0: the next constraint, not active
-/// yet.
+/// yet, and without n, which is as long as q.
 ArcConstraint& prepare_hold(const ModelData& model, int pair, const Node& node, Flight& f) {
   const Contact& contact = node.contacts[node.contact_of[pair]];
   ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
@@ -42,15 +42,15 @@ ArcConstraint& prepare_hold(const ModelData& model, int pair, const Node& node, 
   c.axis = tangent_axis(contact.n_W);
   c.in_face = is_sharp(*c.pair) || f.level[pair];
   if (c.in_face) hold_in_face(model, contact, *c.pair, node, c);
-  c.n.setZero();
-  add(node.trees, 1, contact.n, c.n);
   return c;
 }
 
 /// Holds a resting pair closed from now on. @return false: no room
 bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
   if (f.active == most_constraints) return false;
-  prepare_hold(model, pair, node, f);
+  ArcConstraint& c = prepare_hold(model, pair, node, f);
+  c.n.setZero();
+  add(node.trees, 1, node.contacts[node.contact_of[pair]].n, c.n);
   ++f.active;
   node.held[pair] = 1;
   return true;
