@@ -40,8 +40,10 @@ set(SALTUS_SOURCES
   cpp/src/collision/hull.cpp
   cpp/src/collision/lay_flat.cpp
   cpp/src/collision/meeting.cpp
+  cpp/src/collision/on_faces.cpp
   cpp/src/collision/pair_table.cpp
   cpp/src/collision/parts.cpp
+  cpp/src/collision/rim_crossing.cpp
   cpp/src/collision/shapes.cpp
   cpp/src/collision/slip.cpp
   cpp/src/collision/solid.cpp
@@ -67,6 +69,7 @@ set(SALTUS_SOURCES
   # variational
   cpp/src/variational/arc.cpp
   cpp/src/variational/arc_constraints.cpp
+  cpp/src/variational/arrival.cpp
   cpp/src/variational/cascade.cpp
   cpp/src/variational/certificate.cpp
   cpp/src/variational/certify.cpp
@@ -85,6 +88,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/grip.cpp
+  cpp/src/variational/holds.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
   cpp/src/variational/launch.cpp

@@ -106,6 +106,12 @@ std::vector<std::vector<int>> faces_of(const Convex& convex) {
   return faces;
 }
 
+std::vector<std::pair<int, int>> edges_of(const Convex& convex) {
+  std::vector<std::pair<int, int>> edges;
+  for (const Hull::Edge& edge : convex.hull->edges) edges.emplace_back(edge.from, edge.to);
+  return edges;
+}
+
 void bind_convex(py::module_& m) {
   py::class_<Convex>(m, "Convex", convex_doc)
       .def(py::init(&make_convex), py::arg("points"))
@@ -113,6 +119,7 @@ void bind_convex(py::module_& m) {
                              "[m] the points that are corners of the hull, shape (n, 3)")
       .def_property_readonly("faces", &faces_of,
                              "vertices of each face, counterclockwise seen from outside")
+      .def_property_readonly("edges", &edges_of, "vertices at the two ends of each edge")
       .def("__repr__", [](const Convex& c) { return show(c); });
 }
 

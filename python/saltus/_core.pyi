@@ -383,6 +383,11 @@ class Convex:
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
+    def edges(self) -> list[tuple[int, int]]:
+        """
+        vertices at the two ends of each edge
+        """
+    @property
     def faces(self) -> list[list[int]]:
         """
         vertices of each face, counterclockwise seen from outside

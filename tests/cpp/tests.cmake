@@ -31,6 +31,8 @@ set(SALTUS_TEST_collision
   collision/test_hull.cpp
   collision/test_no_allocation.cpp
   collision/test_pair_table.cpp
+  collision/test_parts.cpp
+  collision/test_parts_chord.cpp
   collision/test_slip.cpp
 )
 set(SALTUS_TEST_model
@@ -45,6 +47,7 @@ set(SALTUS_TEST_model
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_borders.cpp
   variational/test_certificate.cpp
   variational/test_contact_space.cpp
   variational/test_cradle.cpp
@@ -60,6 +63,7 @@ set(SALTUS_TEST_variational
   variational/test_no_allocation.cpp
   variational/test_resolve_impact.cpp
   variational/test_resting.cpp
+  variational/test_resting_solids.cpp
   variational/test_restitution.cpp
   variational/test_stepper.cpp
   variational/test_sustained.cpp

@@ -38,11 +38,12 @@ def test_cpp_project_finds_the_pip_package(tmp_path):
 
 
 def test_cpp_project_finds_an_installed_tree(tmp_path):
-    # The build folder stays, so that a second run compiles only what changed; -O0, because
-    # here the install counts.
+    # The build folder stays, so that a second run compiles only what changed; -O0 and nothing for
+    # debuggers, because here the install counts.
     build, prefix = ROOT / "build" / "install-test", tmp_path / "prefix"
     python = f"-DPython_EXECUTABLE={sys.executable}"
-    configure(ROOT, build, sys.prefix, "-DCMAKE_BUILD_TYPE=Debug", python)
+    quick = ("-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0")
+    configure(ROOT, build, sys.prefix, *quick, python)
     cmake("--build", build)
     cmake("--install", build, "--prefix", prefix)
     cmeel = cmeel_prefix()

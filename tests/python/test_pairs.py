@@ -22,27 +22,27 @@ SHAPES = {
     "ellipsoid": Ellipsoid((0.2, 0.3, 0.4)),
     "convex": Convex(TETRAHEDRON),
 }
-# Gaps of a model with one of each: parts that can bear load. A hull's vertices are 4 here.
+# Gaps of a model with one of each: parts that can bear load. The hull has 4 vertices, 6 edges.
 GAPS = {
     ("box", "box"): 8 + 8 + 12 * 12,
     ("box", "capsule"): 8 + 2 + 12,
-    ("box", "convex"): 8 + 4 + 1,
-    ("box", "cylinder"): 8 + 8 + 1,
+    ("box", "convex"): 8 + 4 + 12 * 6,
+    ("box", "cylinder"): 8 + 8 + 12 * 3 + 2,
     ("box", "ellipsoid"): 1,
     ("box", "half_space"): 8,
     ("box", "sphere"): 1,
     ("capsule", "capsule"): 2 + 2 + 1,
-    ("capsule", "convex"): 2 + 4 + 1,
-    ("capsule", "cylinder"): 2 + 8 + 1,
+    ("capsule", "convex"): 2 + 4 + 6,
+    ("capsule", "cylinder"): 2 + 8 + 3 + 2,
     ("capsule", "ellipsoid"): 1,
     ("capsule", "half_space"): 2,
     ("capsule", "sphere"): 1,
-    ("convex", "convex"): 4 + 4 + 1,
-    ("convex", "cylinder"): 4 + 8 + 1,
+    ("convex", "convex"): 4 + 4 + 6 * 6,
+    ("convex", "cylinder"): 4 + 8 + 6 * 3 + 2,
     ("convex", "ellipsoid"): 1,
     ("convex", "half_space"): 4,
     ("convex", "sphere"): 1,
-    ("cylinder", "cylinder"): 8 + 8 + 1,
+    ("cylinder", "cylinder"): 8 + 8 + 1 + 2 + 2 + 2 + 4,
     ("cylinder", "ellipsoid"): 1,
     ("cylinder", "half_space"): 8 + 2,
     ("cylinder", "sphere"): 1,
@@ -92,9 +92,23 @@ def test_parts_have_the_names_of_the_manual():
     assert rock == [f"a[v{k}] ~ world" for k in range(4)]
     rods = both(SHAPES["capsule"], SHAPES["capsule"]).pair_names
     assert "a[axis] ~ b[axis]" in rods
+    rock_on_can = both(SHAPES["convex"], SHAPES["cylinder"]).pair_names
+    edge = ["a[e5] ~ b[axis]", "b[in] ~ a[e5]", "b[out] ~ a[e5]"]
+    assert {*edge, "b[rim+] ~ a", "b[-90] ~ a"} < set(rock_on_can)
+    cans = both(SHAPES["cylinder"], SHAPES["cylinder"]).pair_names
+    assert {"a[left] ~ b[left]", "a[in] ~ b[axis]", "b[in] ~ a[axis]"} < set(cans)
     assert "a[x+-] ~ b[.y.]".replace("b[.y.]", "b[-y+]") in (
         both(SHAPES["box"], SHAPES["box"]).pair_names
     )
+
+
+def test_edges_of_large_hulls_are_not_listed():
+    angles = [math.pi * k / 6 for k in range(12)]
+    drum = Convex([(math.cos(a), math.sin(a), z) for a in angles for z in (-1, 1)])
+    assert len(drum.edges) == 36
+    assert both(drum, SHAPES["box"]).n_pairs == 24 + 8 + 1  # 12 x 36 crossings are more than 400
+    assert both(drum, SHAPES["capsule"]).n_pairs == 24 + 2 + 36
+    assert both(drum, SHAPES["cylinder"]).n_pairs == 24 + 8 + 36 * 3 + 2
 
 
 def test_radii_add_in_the_curvature():

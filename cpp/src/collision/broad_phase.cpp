@@ -1,7 +1,7 @@
-// Swept balls, then sweep and prune along the axis of greatest spread.
+// Swept balls; a list of near pairs that is kept while no ball leaves a larger one.
 //
-// Reference: C. Ericson, Real-Time Collision Detection, sections 7.5.1-7.5.2 (2005), for the sweep.
-// The balls, down the tree, with x_j = |ds_j| of joint j, c its origin from its parent's at q:
+// Reference: L. Verlet, Physical Review 159, 98 (1967), for the list. The balls, down the tree,
+// with x_j = |ds_j| of joint j, c its origin from its parent's at q:
 //
 //   turned_j = turned_P + x_j                           (if j turns)
 //   moved_j  = moved_P + sway(c) + x_j |slide per unit|
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace saltus {
 namespace {
@@ -24,12 +25,15 @@ constexpr std::size_t most_reserved = 1'000'000;
 /// to every ball so that rounding drops no pair that just touches.
 constexpr double rounding = 1e-14;
 
-/// A new axis must spread the shapes this much more, or the order would be sorted anew for little.
-constexpr double better_axis = 2;
+/// For how many calls near pairs are to serve, if shapes go on as they went.
+constexpr double calls_to_serve = 12;
 
-bool is_unbounded(const PlacedShape& shape) {
-  return std::holds_alternative<HalfSpace>(shape.shape);
-}
+/// Bounds on the skin, of a shape's size: what trembles is not gathered in every call, and what
+/// flies not with all that it could meet in many.
+constexpr double thinnest = 0.05, thickest = 0.5;
+
+/// Radius of the ball that holds a half-space.
+constexpr double plane = std::numeric_limits<double>::infinity();
 
 double change(const Tree& tree, const VecRef& dq, int joint) {
   const Drive& drive = tree.drive[joint];
@@ -80,88 +84,82 @@ void place_balls(const Tree& tree, const Kinematics& kin, const VecRef& dq, doub
   }
 }
 
-/// Along which the squares of the centres' distances from their mean have the greatest sum.
-void choose_axis(BroadPhase& bp) {
-  Vec3 mean = Vec3::Zero(), square = Vec3::Zero();
-  const double n = static_cast<double>(bp.order.size());
-  for (const int i : bp.bounded) mean += bp.center[i] / n;
-  for (const int i : bp.bounded) square += (bp.center[i] - mean).cwiseAbs2();
-  int best = 0;
-  if (square.maxCoeff(&best) > better_axis * square[bp.axis]) bp.axis = best;
+/// True while every ball is within the one that it was gathered with.
+bool is_gathered(const BroadPhase& bp) {
+  return std::all_of(bp.bounded.begin(), bp.bounded.end(), [&](int i) {
+    const double room = bp.held_reach[i] - bp.reach[i];
+    return room >= 0 && (bp.center[i] - bp.held_center[i]).squaredNorm() <= room * room;
+  });
 }
 
-/// Insertion sort, given up for a full sort where the order has changed too much for it.
-void sort_by_lower(BroadPhase& bp) {
-  std::vector<int>& order = bp.order;
-  const auto before = [&](int i, int j) { return bp.lower[i] < bp.lower[j]; };
-  std::size_t moves_left = 8 * order.size();  // about what a full sort costs
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const int i = order[k];
-    std::size_t hole = k;
-    for (; hole > 0 && before(i, order[hole - 1]); --hole) order[hole] = order[hole - 1];
-    order[hole] = i;
-    if (k - hole > moves_left) return std::sort(order.begin(), order.end(), before);
-    moves_left -= k - hole;
-  }
-}
-
-/// Adds the pairs of two shapes, if there are any.
-void add_candidates(const PairTable& pairs, int i, int j, BroadPhase& bp) {
-  const int count = pairs.count(i, j);
-  if (count == 0) return;
-  const int first = pairs.first(i, j);
-  for (int k = 0; k < count; ++k) bp.candidates.push_back(first + k);
-}
-
-bool balls_meet(const BroadPhase& bp, int i, int j) {
-  const double touching = bp.reach[i] + bp.reach[j];
-  return (bp.center[i] - bp.center[j]).squaredNorm() <= touching * touching;
-}
-
-/// @return false where more balls overlap along the axis than a tree would look at.
-bool sweep(const PairTable& pairs, BroadPhase& bp) {
-  std::size_t looks_left = 16 * bp.order.size();
-  for (std::size_t k = 0; k < bp.order.size(); ++k) {
-    const int i = bp.order[k];
-    const double upper = bp.center[i][bp.axis] + bp.reach[i];
-    for (std::size_t m = k + 1; m < bp.order.size() && bp.lower[bp.order[m]] <= upper; ++m) {
-      if (looks_left-- == 0) return false;
-      const int j = bp.order[m];
-      if (balls_meet(bp, i, j)) add_candidates(pairs, i, j, bp);
+void hold_balls(BroadPhase& bp) {
+  for (const int i : bp.bounded) {
+    const double size = bp.ball[i].size;
+    double skin = bp.ball[i].joint < 0 ? 0 : thinnest * size;
+    if (skin > 0 && bp.held_reach[i] >= 0) {
+      const double went = (bp.center[i] - bp.held_center[i]).norm() / bp.age;
+      skin = std::clamp(calls_to_serve * went, skin, thickest * size);
     }
+    bp.held_center[i] = bp.center[i];
+    bp.held_reach[i] = bp.reach[i] + skin;
+    bp.held_reach[i] += rounding * (bp.center[i].cwiseAbs().maxCoeff() + bp.held_reach[i]);
   }
-  return true;
+  bp.age = 0;
 }
 
-/// The sweep, or where it looks at too many pairs, the tree: for some calls without trying.
-void meet_bounded(const PairTable& pairs, BroadPhase& bp) {
-  constexpr int calls = 64;
-  if (bp.rest > 0) {
-    --bp.rest;
-  } else {
-    choose_axis(bp);
-    for (const int i : bp.order) bp.lower[i] = bp.center[i][bp.axis] - bp.reach[i];
-    sort_by_lower(bp);
-    if (sweep(pairs, bp)) return;
-    bp.candidates.clear();
-    bp.rest = calls;
-    build(bp.order, bp.center, bp.tree);
+/// A counting sort by the earlier shape, then by the later: the order of the pairs' numbers.
+void sort_meetings(BroadPhase& bp) {
+  std::fill(bp.row.begin(), bp.row.end(), 0);
+  for (const BroadPhase::Meeting& m : bp.met) ++bp.row[m.i + 1];
+  std::partial_sum(bp.row.begin(), bp.row.end(), bp.row.begin());
+  bp.near.resize(bp.met.size());
+  for (const BroadPhase::Meeting& m : bp.met) bp.near[bp.row[m.i]++] = {m.i, m.j, {}};
+  auto from = bp.near.begin();
+  for (std::size_t i = 0; i + 1 < bp.row.size(); ++i) {  // row[i] is its end now
+    const auto to = bp.near.begin() + bp.row[i];
+    std::sort(from, to, [](const auto& x, const auto& y) { return x.j < y.j; });
+    from = to;
   }
-  refit(bp.center, bp.reach, bp.tree);
-  for_each_overlap(bp.tree, [&](int i, int j) { add_candidates(pairs, i, j, bp); });
 }
 
-/// Pairs with a half-space z <= 0, which does not move and adds its half of the margin here.
-void meet_unbounded(const Tree& tree, const std::vector<PlacedShape>& shapes,
-                    const PairTable& pairs, const Kinematics& kin, double margin, BroadPhase& bp) {
+/// Writes bp.near: the pairs of all shapes whose held balls overlap, and of all half-spaces.
+void gather(const PairTable& pairs, BroadPhase& bp) {
+  constexpr int calls = 16;  // a tree stays good for longer than balls stay where they are held
+  const auto add = [&](int i, int j) { bp.met.push_back({std::min(i, j), std::max(i, j)}); };
+  hold_balls(bp);
+  if (bp.calls_left-- == 0) {
+    build(bp.bounded, bp.center, bp.tree);
+    bp.calls_left = calls - 1;
+  }
+  refit(bp.held_center, bp.held_reach, bp.tree);
+  bp.met.clear();
+  for_each_overlap(bp.tree, add);
+  for (const int i : bp.unbounded) {
+    for (const int j : bp.bounded) add(i, j);
+  }
+  sort_meetings(bp);
+  for (BroadPhase::Near& near : bp.near) near.numbers = pairs.range(near.i, near.j);
+  const auto unwatched = [](const BroadPhase::Near& near) { return near.numbers.count == 0; };
+  bp.near.erase(std::remove_if(bp.near.begin(), bp.near.end(), unwatched), bp.near.end());
+}
+
+/// The planes z = 0 of the half-spaces; they do not move, and add their half of the margin here.
+void place_planes(const Tree& tree, const std::vector<PlacedShape>& shapes, const Kinematics& kin,
+                  double margin, BroadPhase& bp) {
   for (const int i : bp.unbounded) {
     const Pose X_WG = kin.X_WJ(tree, shapes[i].joint) * shapes[i].X_JG;
-    const double beyond = margin / 2 + rounding * X_WG.p.cwiseAbs().maxCoeff();
-    for (const int j : bp.order) {
-      const Vec3 c = bp.center[j] - X_WG.p;
-      if (X_WG.R.col(2).dot(c) <= bp.reach[j] + beyond) add_candidates(pairs, i, j, bp);
-    }
+    bp.center[i] = X_WG.p;
+    bp.normal[i] = X_WG.R.col(2);
+    bp.reach[i] = margin / 2 + rounding * X_WG.p.cwiseAbs().maxCoeff();
   }
+}
+
+bool meet(const BroadPhase& bp, int i, int j) {
+  const double touching = bp.reach[i] + bp.reach[j];
+  const Vec3 c = bp.center[j] - bp.center[i];
+  if (bp.ball[i].size == plane) return bp.normal[i].dot(c) <= touching;
+  if (bp.ball[j].size == plane) return -bp.normal[j].dot(c) <= touching;
+  return c.squaredNorm() <= touching * touching;
 }
 
 }  // namespace
@@ -170,33 +168,43 @@ BroadPhase::BroadPhase(const Tree& model_tree, const std::vector<PlacedShape>& s
                        const PairTable& pairs)
     : center(shapes.size()),
       reach(shapes.size()),
-      lower(shapes.size()),
+      normal(shapes.size()),
       moved(model_tree.parent.size()),
-      turned(model_tree.parent.size()) {
-  candidates.reserve(std::min(static_cast<std::size_t>(pairs.size()), most_reserved));
+      turned(model_tree.parent.size()),
+      held_center(shapes.size()),
+      held_reach(shapes.size()),
+      row(shapes.size() + 1) {
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
     ball.push_back({shapes[i].joint, shapes[i].X_JG.p, bounding_radius(shapes[i].shape)});
-    if (pairs.is_used(i)) (is_unbounded(shapes[i]) ? unbounded : bounded).push_back(i);
+    if (pairs.is_used(i)) (ball[i].size == plane ? unbounded : bounded).push_back(i);
   }
-  order = bounded;
-  reserve(order.size(), tree);
+  candidates.reserve(std::min(static_cast<std::size_t>(pairs.size()), most_reserved));
+  const std::size_t n = bounded.size();
+  near.reserve(std::min(n * (n + unbounded.size()), most_reserved));
+  met.reserve(near.capacity());
+  reserve(n, tree);
+  start_anew(*this);
 }
 
 void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
                      const PairTable& pairs, const Kinematics& kin, const VecRef& dq, double margin,
                      BroadPhase& bp) {
-  bp.candidates.clear();
   bound_joints(tree, kin, dq, bp);
   place_balls(tree, kin, dq, margin, bp);
-  meet_bounded(pairs, bp);
-  meet_unbounded(tree, shapes, pairs, kin, margin, bp);
-  std::sort(bp.candidates.begin(), bp.candidates.end());
+  place_planes(tree, shapes, kin, margin, bp);
+  ++bp.age;
+  if (!is_gathered(bp)) gather(pairs, bp);
+  bp.candidates.clear();
+  for (const BroadPhase::Near& near : bp.near) {
+    if (!meet(bp, near.i, near.j)) continue;
+    const auto [first, count] = near.numbers;
+    for (int k = 0; k < count; ++k) bp.candidates.push_back(first + k);
+  }
 }
 
 void start_anew(BroadPhase& bp) {
-  bp.axis = 0;
-  bp.rest = 0;
-  bp.order = bp.bounded;
+  bp.calls_left = 0;
+  std::fill(bp.held_reach.begin(), bp.held_reach.end(), -1);
 }
 
 }  // namespace saltus

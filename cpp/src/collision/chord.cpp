@@ -20,6 +20,8 @@
 
 #include "collision/chord_path.hpp"
 #include "collision/core.hpp"
+#include "collision/crossing.hpp"
+#include "collision/rim_crossing.hpp"
 
 namespace saltus {
 namespace {
@@ -116,11 +118,55 @@ double certified_advance(const Chord& chord, double g, const ChordSample& x,
   return d;
 }
 
+bool has_cylinder(const Pair& pair) {
+  return std::holds_alternative<Cylinder>(pair.on_a.shape) ||
+         std::holds_alternative<Cylinder>(pair.on_b.shape);
+}
+
 /// The floor that a pair can reach: edges of solids meet at 0.
 double reachable(const Pair& pair, double floor) {
-  if (pair.kind != PairKind::crossing) return floor;
+  if (pair.kind != PairKind::crossing || has_cylinder(pair)) return floor;
   const double radii = core_radius(pair.on_a.shape) + core_radius(pair.on_b.shape);
   return std::fmax(floor, -radii);
+}
+
+ChordHit search(const Chord& chord, double floor) {
+  using Outcome = ChordHit::Outcome;
+  ChordSample x = sample_chord(chord, 0);
+  ChordBounds bounds = first_bounds(chord);
+  if (x.phi - bounds.mu > floor) return {Outcome::clear, 1};
+
+  add_higher_bounds(chord, x.phi, bounds);
+  double s = 0;
+  bool apart = false;  // edges have no inside: just beyond the root they depart
+  const bool edges = chord.pair.kind == PairKind::crossing;
+  for (int k = 0; k < max_iterations; ++k, x = sample_chord(chord, s)) {
+    const double g = x.phi - floor;
+    if (!std::isfinite(g) || !std::isfinite(x.rate)) break;
+    const bool touches = g <= rounding * bounds.length, departs = x.rate > rounding * bounds.mu;
+    if (touches && (!departs || (edges && apart))) return {Outcome::hit, s};
+    apart = apart || !touches;
+    double d = certified_advance(chord, g, x, bounds, 1 - s);
+    const bool overlaps = g < -rounding * bounds.length;
+    if (overlaps) d = std::fmax(d, stride);
+    if (touches && d < sideways && !chord.a_is_ball()) return {Outcome::hit, s};
+    s += std::fmax(d, epsilon);  // s is known no better
+    if (s >= 1) return {Outcome::clear, 1};
+  }
+  return {Outcome::not_converged, s};
+}
+
+/// Of a crossing with a cylinder: most edges of a large body are far from it. Where a rim is
+/// crossed, one part is searched that is near the place.
+ChordHit search_at_cylinder(Chord chord, double floor) {
+  const Pose X_BA = pose_at_start(chord);
+  const double around = distance_around_cylinder(chord.pair, X_BA, {});
+  if (around - first_bounds(chord).mu > floor) return {ChordHit::Outcome::clear, 1};
+  NearRim near;
+  if (chord.pair.rim == RimPart::none) return search(chord, floor);
+  if (!near_rim(chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
+  (near.of_a ? chord.part_a : chord.part_b) = &near.part;
+  return search(chord, floor);
 }
 
 }  // namespace
@@ -131,28 +177,10 @@ double gap_change_bound(const Tree& tree, const Pair& pair, const VecRef& q, con
 
 ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq,
                             double floor) {
-  using Outcome = ChordHit::Outcome;
   const Chord chord{tree, pair, q, dq};
   floor = reachable(pair, floor);
-  ChordSample x = sample_chord(chord, 0);
-  ChordBounds bounds = first_bounds(chord);
-  if (x.phi - bounds.mu > floor) return {Outcome::clear, 1};
-
-  add_higher_bounds(chord, x.phi, bounds);
-  double s = 0;
-  for (int k = 0; k < max_iterations; ++k, x = sample_chord(chord, s)) {
-    const double g = x.phi - floor;
-    if (!std::isfinite(g) || !std::isfinite(x.rate)) break;
-    const bool touches = g <= rounding * bounds.length, departs = x.rate > rounding * bounds.mu;
-    if (touches && !departs) return {Outcome::hit, s};
-    double d = certified_advance(chord, g, x, bounds, 1 - s);
-    const bool overlaps = g < -rounding * bounds.length;
-    if (overlaps) d = std::fmax(d, stride);
-    if (touches && d < sideways && !chord.a_is_ball()) return {Outcome::hit, s};
-    s += std::fmax(d, epsilon);  // s is known no better
-    if (s >= 1) return {Outcome::clear, 1};
-  }
-  return {Outcome::not_converged, s};
+  const bool at_cylinder = pair.kind == PairKind::crossing && has_cylinder(pair);
+  return at_cylinder ? search_at_cylinder(chord, floor) : search(chord, floor);
 }
 
 }  // namespace saltus

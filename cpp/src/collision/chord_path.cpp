@@ -17,9 +17,9 @@ namespace saltus {
 namespace {
 
 /// Of parts that go on beyond their ends, what is convex: edges as they are, without sides.
-Gap chord_gap(const Pair& pair, const Pose& X_BA) {
-  if (pair.kind == PairKind::crossing) return gap(pair.on_a.shape, X_BA, pair.on_b.shape, {});
-  return part_gap(pair, X_BA, {});
+Gap chord_gap(const Chord& chord, const Pose& X_BA) {
+  if (chord.pair.kind == PairKind::crossing) return gap(chord.a().shape, X_BA, chord.b().shape, {});
+  return part_gap(chord.pair, X_BA, {});
 }
 
 struct MovingPoint {
@@ -102,7 +102,9 @@ void descend_to_b(const Chord& chord, double s, MovingFrame& F) {
 /// The frame of a's part as b sees it.
 MovingFrame see_a(const Chord& chord, double s) {
   const std::vector<ChainJoint>& chain = chord.pair.chain;
-  MovingFrame F = frame_of(chord.a(), chord.a_is_ball() ? 1 : 4);
+  // a ball looks the same however it turns, but which face bears a corner is told by its edges
+  const bool turns = !chord.a_is_ball() || !chord.pair.inward.empty();
+  MovingFrame F = frame_of(chord.a(), turns ? 4 : 1);
   rise(chord, +1, s, chain.rbegin(), chain.rend(), F);
   if (!chord.b_is_sphere()) {
     descend_to_b(chord, s, F);
@@ -118,14 +120,22 @@ MovingFrame see_a(const Chord& chord, double s) {
   return F;
 }
 
+Pose pose_of(const MovingFrame& F) {
+  const MovingPoint& o = F.point[0];
+  Pose X_BA{Mat3::Identity(), o.p};
+  for (int k = 1; k < F.count; ++k) X_BA.R.col(k - 1) = F.point[k].p - o.p;
+  return X_BA;
+}
+
 }  // namespace
+
+Pose pose_at_start(const Chord& chord) { return pose_of(see_a(chord, 0)); }
 
 ChordSample sample_chord(const Chord& chord, double s) {
   const MovingFrame F = see_a(chord, s);
   const MovingPoint& o = F.point[0];
-  Pose X_BA{Mat3::Identity(), o.p};
-  for (int k = 1; k < F.count; ++k) X_BA.R.col(k - 1) = F.point[k].p - o.p;
-  const Gap g = chord_gap(chord.pair, X_BA);
+  const Pose X_BA = pose_of(F);
+  const Gap g = chord_gap(chord, X_BA);
   ChordSample out{};
   Heights& h = out.heights;
   const Vec3& n = g.n_W;

@@ -15,9 +15,11 @@ struct Chord {
   const Pair& pair;
   const VecRef& q;
   const VecRef& dq;
+  const Placed* part_a = nullptr;  ///< in place of pair.on_a, or pair.on_b
+  const Placed* part_b = nullptr;
 
-  const Placed& a() const { return pair.on_a; }
-  const Placed& b() const { return pair.on_b; }
+  const Placed& a() const { return part_a == nullptr ? pair.on_a : *part_a; }
+  const Placed& b() const { return part_b == nullptr ? pair.on_b : *part_b; }
   bool b_is_sphere() const { return std::holds_alternative<Sphere>(b().shape); }
   /// A ball's directions do not matter: it is not asked how it turns.
   bool a_is_ball() const {
@@ -50,6 +52,9 @@ struct ChordSample {
   double rate;      ///< [m] phi' = n.P', P the point of a's core on the contact line
   Heights heights;  ///< m = 0 where a is a ball: its core is y = 0
 };
+
+/// Of a's part as b's part sees it.
+Pose pose_at_start(const Chord& chord);
 
 ChordSample sample_chord(const Chord& chord, double s);
 

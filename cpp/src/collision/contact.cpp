@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "collision/crossing.hpp"
+
 namespace saltus {
 namespace {
 
@@ -53,9 +55,14 @@ std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a
 }
 
 Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
+  return pair_gap(tree, kin, pair, Vec3::Zero());
+}
+
+Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair, const Vec3& motion_W) {
   const Placed &a = pair.on_a, &b = pair.on_b;
   const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
-  Gap g = part_gap(pair, pose_from(tree, kin, a, origin), pose_from(tree, kin, b, origin));
+  const Pose X_WA = pose_from(tree, kin, a, origin), X_WB = pose_from(tree, kin, b, origin);
+  Gap g = part_gap(pair, X_WA, X_WB, motion_W);
   g.p_WA += origin;
   g.p_WB += origin;
   g.center_W += origin;
@@ -63,7 +70,9 @@ Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
 }
 
 bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap) {
-  if (pair.kind == PairKind::whole && !pair.skips_corners) return false;
+  if (pair.kind == PairKind::corner && pair.out_a.isZero(0)) return false;
+  if (pair.kind == PairKind::whole && pair.rim == RimPart::none && !pair.skips_corners)
+    return false;
   const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin
   return is_silent(pair, pose_from(tree, kin, pair.on_a, none),
                    pose_from(tree, kin, pair.on_b, none), gap);
@@ -72,8 +81,9 @@ bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const 
 double edge_distance(const Tree& tree, const Kinematics& kin, const Pair& pair) {
   const Placed &a = pair.on_a, &b = pair.on_b;
   const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
-  return gap(a.shape, pose_from(tree, kin, a, origin), b.shape, pose_from(tree, kin, b, origin))
-      .phi;
+  const Pose X_A = pose_from(tree, kin, a, origin), X_B = pose_from(tree, kin, b, origin);
+  const double around = distance_around_cylinder(pair, X_A, X_B);
+  return around > 0 ? around : gap(a.shape, X_A, b.shape, X_B).phi;
 }
 
 void put_plane_on_b(const Tree& tree, const Kinematics& kin, const Vec3& p_W, const Vec3& n_W,

@@ -12,7 +12,7 @@ struct PartOfShape {
   std::string name;  ///< "" for all of it
   Shape shape;
   Pose X_GP;                 ///< its frame
-  Vec3 out = Vec3::Zero();   ///< of an edge of a solid: out of the shape, in the part's frame
+  Vec3 out = Vec3::Zero();   ///< of an edge or a rim: as in Pair
   std::vector<Vec3> inward;  ///< of a corner: along the edges that meet in it
 };
 
@@ -20,12 +20,14 @@ struct PartOfShape {
 int corner_count(const Shape& shape);
 PartOfShape corner(const Shape& shape, int k);
 
-/// Box 12, capsule 1; those of the others are not listed.
+/// Box 12, capsule 1 and cylinder 1: its axis, convex as many as it has; the others have none.
 int edge_count(const Shape& shape);
-/// A capsule along its z axis: of radius 0 for a box's edge.
+/// Along its z axis: a capsule, of radius 0 for an edge of flat faces, or the cylinder itself.
 PartOfShape edge(const Shape& shape, int k);
 
-/// The two rims of a cylinder, as discs.
-PartOfShape rim(const Cylinder& shape, int k);
+/// Cylinder 2; the others have none.
+int rim_count(const Shape& shape);
+/// As a disc.
+PartOfShape rim(const Shape& shape, int k);
 
 }  // namespace saltus

@@ -18,9 +18,8 @@ namespace {
 /// Below this sine edges count as parallel: their ends bear the load, and 1/det loses its digits.
 constexpr double parallel = 1e-6;
 
-/// An edge's normals lie between those of its two faces, 45 degrees to each side of `out`: of a
-/// box. Faces that lie on one another may be this far from parallel [rad].
-constexpr double least_cosine = 0.70710678118654752 - 1e-3;
+/// Faces that lie on one another may be this far from parallel [rad].
+constexpr double tilt = 1e-3;
 
 /// [pair.touch] Edges that are farther on the wrong side of each other, by a hundredth of the
 /// smaller shape, are on the far sides of both.
@@ -33,8 +32,25 @@ Vec3 axis(const Pose& X) { return X.R.col(2); }
 
 }  // namespace
 
+Capsule edge_capsule(const Shape& shape) {
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return *capsule;
+  const auto& cylinder = std::get<Cylinder>(shape);
+  return {cylinder.radius, cylinder.half_length};
+}
+
+bool is_within_ends(const Shape& edge, const Pose& X_WE, const Vec3& p_W) {
+  const double along = axis(X_WE).dot(p_W - X_WE.p);
+  return std::abs(along) <= edge_capsule(edge).half_length * (1 - end);
+}
+
+// |out| = 1/cos(half), and cos(half + tilt)/cos(half) = 1 - tilt tan(half) nearly
+bool is_in_cone(const Vec3& n_W, const Vec3& out_W) {
+  const double tangent = std::sqrt(std::fmax(out_W.squaredNorm() - 1, 0));
+  return n_W.dot(out_W) >= 1 - tilt * (1 + tangent);
+}
+
 Gap crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
-  const auto &a = std::get<Capsule>(pair.on_a.shape), &b = std::get<Capsule>(pair.on_b.shape);
+  const Capsule a = edge_capsule(pair.on_a.shape), b = edge_capsule(pair.on_b.shape);
   const Vec3 t_a = axis(X_WA), t_b = axis(X_WB), w0 = X_WA.p - X_WB.p;
   const Vec3 across = t_a.cross(t_b);
   const double sine = across.norm(), cosine = t_a.dot(t_b);
@@ -60,16 +76,22 @@ Gap crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
   return g;
 }
 
+double distance_around_cylinder(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
+  const Shape &a = pair.on_a.shape, &b = pair.on_b.shape;
+  const bool is_a = std::holds_alternative<Cylinder>(a);
+  if (!is_a && !std::holds_alternative<Cylinder>(b)) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const Sphere ball{bounding_radius(is_a ? a : b)};
+  return is_a ? gap(ball, X_WA, b, X_WB).phi : gap(ball, X_WB, a, X_WA).phi;
+}
+
 bool is_crossing(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
   if (!(gap.phi > -deepest * pair.touch) || !std::isfinite(gap.phi)) return false;
-  const auto &a = std::get<Capsule>(pair.on_a.shape), &b = std::get<Capsule>(pair.on_b.shape);
-  const double xi = axis(X_WA).dot(gap.center_W - X_WA.p);
-  const double eta = axis(X_WB).dot(gap.p_WB - b.radius * gap.n_W - X_WB.p);
-  if (std::abs(xi) > a.half_length * (1 - end)) return false;
-  if (std::abs(eta) > b.half_length * (1 - end)) return false;
-  const Vec3 out_a = X_WA.R * pair.out_a, out_b = X_WB.R * pair.out_b;
-  if (!pair.out_a.isZero(0) && -gap.n_W.dot(out_a) < least_cosine) return false;
-  return pair.out_b.isZero(0) || gap.n_W.dot(out_b) >= least_cosine;
+  if (!is_within_ends(pair.on_a.shape, X_WA, gap.p_WA)) return false;
+  if (!is_within_ends(pair.on_b.shape, X_WB, gap.p_WB)) return false;
+  if (!pair.out_a.isZero(0) && !is_in_cone(-gap.n_W, X_WA.R * pair.out_a)) return false;
+  return pair.out_b.isZero(0) || is_in_cone(gap.n_W, X_WB.R * pair.out_b);
 }
 
 }  // namespace saltus

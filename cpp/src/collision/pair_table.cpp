@@ -18,11 +18,14 @@ int count_between(const std::vector<int>& list, int i, int j) {
   return static_cast<int>(std::lower_bound(from, list.end(), j) - from);
 }
 
-/// Shapes alike in their kind and group; convex ones in their number of vertices too, since each
-/// vertex can have a gap of its own.
-std::tuple<std::size_t, std::size_t, int> signature(const Shape& shape, int group) {
+/// Shapes alike in their kind and group; convex ones in their numbers of vertices and edges too,
+/// since each can have a gap of its own.
+using Signature = std::tuple<std::size_t, std::size_t, std::size_t, int>;
+
+Signature signature(const Shape& shape, int group) {
   const auto* convex = std::get_if<Convex>(&shape);
-  return {shape.index(), convex == nullptr ? 0 : convex->hull->vertices.size(), group};
+  if (convex == nullptr) return {shape.index(), 0, 0, group};
+  return {shape.index(), convex->hull->vertices.size(), convex->hull->edges.size(), group};
 }
 
 }  // namespace
@@ -58,7 +61,7 @@ PairTable::PairTable(const std::vector<PlacedShape>& shapes, const PairRules& ru
 }
 
 void PairTable::classify(const std::vector<PlacedShape>& shapes, const PairRules& rules) {
-  std::map<std::tuple<std::size_t, std::size_t, int>, int> known;
+  std::map<Signature, int> known;
   std::map<int, int> bodies;
   std::vector<int> example;  // a shape of each class
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
@@ -80,11 +83,12 @@ void PairTable::classify(const std::vector<PlacedShape>& shapes, const PairRules
       parts_[s][t] = part_count(shapes[a].shape, shapes[b].shape);
     }
   }
-  before_.assign(kinds, std::vector<int>(shapes.size() + 1, 0));
+  const std::size_t stride = shapes.size() + 1;
+  before_.assign(kinds * stride, 0);
   on_.resize(bodies.size());
   for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
-    for (std::size_t t = 0; t < kinds; ++t) before_[t][i + 1] = before_[t][i];
-    ++before_[class_[i]][i + 1];
+    for (std::size_t t = 0; t < kinds; ++t) before_[t * stride + i + 1] = before_[t * stride + i];
+    ++before_[class_[i] * stride + i + 1];
     std::vector<Members>& on = on_[body_[i]];
     auto members = std::find_if(on.begin(), on.end(),
                                 [&](const Members& each) { return each.kind == class_[i]; });
@@ -97,7 +101,7 @@ PairTable::Count PairTable::row_between(int i, int from, int to) const {
   const std::vector<int>& parts = parts_[class_[i]];
   Count sum = 0;
   for (int t = 0; t < classes(); ++t) {
-    sum += static_cast<Count>(parts[t]) * (before_[t][to] - before_[t][from + 1]);
+    sum += static_cast<Count>(parts[t]) * (before(t)[to] - before(t)[from + 1]);
   }
   if (plain_[i] != 0) return sum;  // most often: spares a look at three lists
   for (const Members& members : on_[body_[i]]) {
@@ -117,19 +121,16 @@ PairTable::Count PairTable::row_before(int i, int j) const {
   return sum;
 }
 
-int PairTable::count(int a, int b) const {
+PairTable::Range PairTable::range(int a, int b) const {
   const auto [i, j] = std::minmax(a, b);
   const int parts = parts_[class_[i]][class_[j]];
-  if (parts == 0 || body_[i] == body_[j]) return 0;
-  if (plain_[i] != 0) return parts;
-  const std::vector<int>& excluded = excluded_[i];
-  if (!excluded.empty() && std::binary_search(excluded.begin(), excluded.end(), j)) return 0;
-  return parts;
-}
-
-int PairTable::first(int a, int b) const {
-  const auto [i, j] = std::minmax(a, b);
-  return static_cast<int>(row_[i] + row_before(i, j));
+  if (parts == 0) return {0, 0};
+  if (plain_[i] == 0) {
+    if (body_[i] == body_[j]) return {0, 0};
+    const std::vector<int>& excluded = excluded_[i];
+    if (std::binary_search(excluded.begin(), excluded.end(), j)) return {0, 0};
+  }
+  return {static_cast<int>(row_[i] + row_before(i, j)), parts};
 }
 
 PairTable::Key PairTable::key(int pair) const {

@@ -47,7 +47,7 @@ void nearby_cylinder(const Solid& s, const Vec3& d, double width, Nearby& out) {
   const Vec3 w = rho < no_length ? Vec3(s.R.col(0))
                                  : Vec3((d.x() / rho) * s.R.col(0) + (d.y() / rho) * s.R.col(1));
   if (rho < width) out.add_face(up * z);
-  const bool level = std::abs(d.z()) < width;
+  const bool level = std::abs(d.z()) < width && s.size.z() > 0;  // a disc has no side
   const Vec3 round = s.p + s.size.x() * w;
   if (level) out.add(side_at(s, round));
   out.add(rim_at(s, round + up * s.size.z() * z));
@@ -134,7 +134,7 @@ void flat_cylinder(const Solid& s, const Vec3& d, double level, Flat& out) {
     return;
   }
   const Vec3 w(d.x() / rho, d.y() / rho, 0), z = s.size.z() * Vec3::UnitZ();
-  const bool ruling = std::abs(d.z()) <= level;
+  const bool ruling = std::abs(d.z()) <= level && s.size.z() > 0;
   out.corners = ruling ? 2 : 1;
   out.corner[0] = s.p + s.R * (s.size.x() * w + (ruling ? 1 : side(d.z())) * z);
   if (ruling) out.corner[1] = s.p + s.R * (s.size.x() * w - z);

@@ -3,18 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "saltus/collision/slip.hpp"
 #include "variational/node.hpp"
 
 namespace saltus {
 namespace {
-
-bool set_velocity_at_node(const ModelData& model, Node& node) {
-  mass_pass(model.packed, node.w);
-  if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
-  node.v = node.p;
-  solve(model.tree, model.packed, node.M, node.v);
-  return node.v.allFinite();
-}
 
 Contact& next_in_pool(Node& node) {
   if (node.touching == static_cast<int>(node.contacts.size())) {
@@ -48,6 +41,19 @@ void note_silent(const ModelData& model, double near, int index, const Gap& g, N
   node.silent.push_back(index);
 }
 
+/// [m/s] of a against b at a point. `row` is scratch.
+Vec3 motion_of_point(const ModelData& model, const Pair& pair, const Vec3& P_W, Node& node,
+                     ContactVector& row) {
+  Vec3 motion;
+  for (int k = 0; k < 3; ++k) {
+    add_motion_gradient(model.tree, node.kin, pair, P_W, Vec3::Unit(k), node.dense);
+    shape_row(model, node.trees, pair, row);
+    take_from(node.trees, node.dense, row);
+    motion[k] = dot(node.trees, row, node.v);
+  }
+  return motion;
+}
+
 /// Adds the pair to the contacts if it touches, or would within epsilon_t h.
 void add_if_touching(const ModelData& model, const StepOptions& options, double speed, int index,
                      Node& node) {
@@ -57,11 +63,30 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
-  Contact& c = next_in_pool(node);
-  add_gap_gradient(model.tree, node.kin, pair, g, node.dense);
-  shape_row(model, node.trees, pair, c.n);
+  write_contact(model, options, speed, index, pair, g, node);
+  Contact& c = node.contacts[node.contact_of[index]];
+  if (c.motion == Contact::Motion::approaches && !pair.inward.empty()) {
+    const Vec3 motion = motion_of_point(model, pair, contact_point(g), node, c.column);
+    const Gap other = pair_gap(model.tree, node.kin, pair, motion);
+    write_contact(model, options, speed, index, pair, other, node);
+  }
+  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) drop_last_contact(node);
+}
+
+}  // namespace
+
+void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                   const Pair& as, const Gap& g, Node& node) {
+  const Pair& pair = node.pool[place];
+  if (node.contact_of[place] < 0) {
+    next_in_pool(node);
+    node.contact_of[place] = node.touching++;
+  }
+  Contact& c = node.contacts[node.contact_of[place]];
+  add_gap_gradient(model.tree, node.kin, as, g, node.dense);
+  shape_row(model, node.trees, as, c.n);
   take_from(node.trees, node.dense, c.n);
-  c.pair = index;
+  c.pair = place;
   c.phi = g.phi;
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
@@ -69,12 +94,18 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   c.restitution = properties.restitution;
   c.friction = properties.friction;
   classify(node, speed, options.rest, c);
-  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) return;
-  if (c.friction > 0) set_tangents(model, g, pair, node, c);
-  node.contact_of[index] = node.touching++;
+  if (c.friction > 0) set_tangents(model, g, as, node, c);
 }
 
-}  // namespace
+void drop_last_contact(Node& node) { node.contact_of[node.contacts[--node.touching].pair] = -1; }
+
+bool set_velocity_at_node(const ModelData& model, Node& node) {
+  mass_pass(model.packed, node.w);
+  if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
+  node.v = node.p;
+  solve(model.tree, model.packed, node.M, node.v);
+  return node.v.allFinite();
+}
 
 Contact fresh_contact(const TreeCoordinates& trees, bool with_friction) {
   Contact fresh;

@@ -1,109 +1,22 @@
 #include "variational/flight.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
-#include "saltus/collision/slip.hpp"
 #include "variational/flight_friction.hpp"
+#include "variational/holds.hpp"
 #include "variational/impact_time.hpp"
 #include "variational/launch.hpp"
 
 namespace saltus {
 namespace {
 
-/// A sharp corner that slides over the border of a face has no normal there: it is held in the
-/// plane of the face, and at the next node it is beside it and free.
-void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pair,
-                  const Node& node, ArcConstraint& c) {
-  c.face.kind = PairKind::whole;
-  c.face.on_a = pair.on_a;
-  c.face.on_b.joint = pair.on_b.joint;
-  c.face.chain = pair.chain;  // no allocation: room for the deepest is reserved
-  c.face.touch = pair.touch;
-  put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, c.face);
-}
-
-}  // namespace
-
-bool hold(const ModelData& model, int pair, Node& node, Flight& f) {
-  if (f.active == static_cast<int>(f.constraints.size())) return false;
-  const Contact& contact = node.contacts[node.contact_of[pair]];
-  ArcConstraint& c = next_constraint(f, ArcConstraint::Kind::hold, pair, 0);
-  // many that touch cannot all be brought to 0: with friction they stay where rounding left them
-  if (node.friction.any) c.target = std::min(contact.phi, 0.0);
-  c.pair = &node.pool[pair];
-  c.grip = {};
-  c.carried.setZero();
-  c.axis = tangent_axis(contact.n_W);
-  c.in_face = !c.pair->inward.empty() && !std::holds_alternative<HalfSpace>(c.pair->on_b.shape);
-  if (c.in_face) {
-    hold_in_face(model, contact, *c.pair, node, c);
-  }
-  c.n.setZero();
-  add(node.trees, 1, contact.n, c.n);
-  node.held[pair] = 1;
-  return true;
-}
-
-void release(int i, Node& node, Flight& f) {
-  node.held[f.constraints[i].place] = 0;
-  std::swap(f.constraints[i], f.constraints[f.active - 1]);
-  --f.active;
-}
-
-double floor_of(const Node& node, int pair) {
-  const int contact = node.contact_of[pair];
-  const double phi = contact < 0 ? node.sunk[pair] : node.contacts[contact].phi;
-  return std::min(0.0, phi) - node.pool[pair].touch;
-}
-
-namespace {
-
-bool start_constraints(const ModelData& model, Node& node, Flight& f) {
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (!node.held[c.pair]) continue;
-    if (c.motion != Contact::Motion::rests) {
-      node.held[c.pair] = 0;
-    } else if (!hold(model, c.pair, node, f)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-enum class Holds { unchanged, changed, too_many };
-
-/// Complementarity of sustained contacts over the arc just solved: pressed pairs are held, held
-/// pairs that would have to be pulled are released. Each pair may change its mind twice.
-Holds update_holds(const ModelData& model, Node& node, Flight& f) {
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || c.lambda >= 0 || f.flips[c.place] >= 2) continue;
-    ++f.flips[c.place];
-    release(i, node, f);
-    return Holds::changed;
-  }
-  bool changed = false, placed = false;
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
-    if (!placed) place_end(model, f.arc.q_end, f.scratch);
-    placed = true;
-    const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
-    if (g.phi >= floor_of(node, c.pair)) continue;
-    if (!hold(model, c.pair, node, f)) return Holds::too_many;
-    changed = true;
-  }
-  return changed ? Holds::changed : Holds::unchanged;
-}
-
 /// A pair met for the first time in this flight.
 void fit(int pairs, Flight& f) {
   if (static_cast<int>(f.passed.size()) >= pairs) return;
   f.passed.resize(static_cast<std::size_t>(pairs), 0);
   f.flips.resize(static_cast<std::size_t>(pairs), 0);
+  f.level.resize(static_cast<std::size_t>(pairs), 0);
 }
 
 bool is_clear_on_chord(const ModelData& model, const Pair& solid, const Node& node) {
@@ -186,9 +99,10 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   fit(node.pool.size(), f);
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
+  std::fill(f.level.begin(), f.level.end(), 0);
   f.active = 0;
   if (node.friction.any) make_room(model, node, f);
-  if (left > 0 && !start_constraints(model, node, f)) return FlightOutcome::too_many_contacts;
+  if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any) start_grips(left, node, f);
   return solve_first_arc(model, options, left, node, f) || restart(model, options, left, node, f)
              ? FlightOutcome::arrived
@@ -200,9 +114,11 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
 FlightOutcome update_contacts(const ModelData& model, const StepOptions& options, Node& node,
                               Flight& f, bool& settled) {
   if (rests_with_friction(node)) {
-    return update_grips(model, options, node, f) == Grips::settled
-               ? FlightOutcome::arrived
-               : FlightOutcome::friction_not_settled;
+    if (update_grips(model, options, node, f) != Grips::settled) {
+      return FlightOutcome::friction_not_settled;
+    }
+    settled = !level_rods(model, node, f);
+    return FlightOutcome::arrived;
   }
   const bool let_go = drop_sticks(f);
   const Holds holds = update_holds(model, node, f);
@@ -211,13 +127,38 @@ FlightOutcome update_contacts(const ModelData& model, const StepOptions& options
   return FlightOutcome::arrived;
 }
 
+/// An end of a rod whose axis is held on an edge, where the edge comes to that end: the two touch
+/// in the same point, and that of the end only grazes.
+bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight& f) {
+  const Pair& pair = node.pool[end];
+  const auto* ball = std::get_if<Sphere>(&pair.on_a.shape);
+  if (pair.kind != PairKind::corner || ball == nullptr || !(ball->radius > 0)) return false;
+  place_end(model, f.arc.q_end, f.scratch);
+  const Vec3 p_WA = pair_gap_at_end(model, pair, f.scratch).p_WA;
+  constexpr double same_point = 1e-3;  // of the radius
+  for (int i = 0; i < f.active; ++i) {
+    const ArcConstraint& c = f.constraints[i];
+    if (c.kind != ArcConstraint::Kind::hold || node.pool.solid(c.place) != node.pool.solid(end) ||
+        c.pair->kind != PairKind::crossing) {
+      continue;
+    }
+    const Gap g = pair_gap_at_end(model, *c.pair, f.scratch);
+    const double apart = std::min((g.p_WA - p_WA).norm(), (g.p_WB - p_WA).norm());
+    if (apart < same_point * ball->radius) return true;
+  }
+  return false;
+}
+
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
 ImpactTime shorten(const ModelData& model, const StepOptions& options, const FirstHit& hit,
                    double tau, Node& node, Flight& f) {
   const bool hop = is_hop(node, hit.pair);
   f.start_v = f.arc.v;
   f.closing = hit.pair;
-  const ImpactTime found = find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f);
+  ImpactTime found = find_impact_time(model, options, hit.pair, hop ? 0 : hit.s, node, f);
+  if (found == ImpactTime::found && grazes_with_axis(model, hit.pair, node, f)) {
+    found = ImpactTime::missed;
+  }
   if (found == ImpactTime::found) {
     // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far from
     // the origin the chord tells gaps apart no better than their rounding).
@@ -243,7 +184,7 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
     : history(model.tree.coordinates),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints),
+      constraints(most_constraints + 1),
       slip(with_friction) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
@@ -275,6 +216,9 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
         return FlightOutcome::arrived;
       }
       found = shorten(model, options, hit, tau, node, f);
+    } else if (level_held_ends(model, node, f)) {
+      f.arc.v = node.v;
+      continue;
     }
     if (found == ImpactTime::not_located) return FlightOutcome::impact_not_located;
     if (found == ImpactTime::settles && impact_pending(node)) {
@@ -283,10 +227,8 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     solved = found == ImpactTime::found;
     if (solved) tau = f.arc.tau;
     if (found != ImpactTime::not_converged) continue;
-    if (restart(model, options, tau, node, f)) {
-      solved = true;
-      continue;
-    }
+    solved = restart(model, options, tau, node, f);
+    if (solved) continue;
     if (!drop_launch(node, f)) return FlightOutcome::not_converged;
     fallback = true;
     tau = left;

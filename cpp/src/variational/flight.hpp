@@ -52,13 +52,14 @@ struct Flight {
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  /// A pool, of most_constraints, or with friction as many as contacts ask for; `active` are used.
+  /// A pool, of most_constraints + 1, or with friction as many as contacts ask for; `active` are used.
   std::vector<ArcConstraint> constraints;
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
+  std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
   SlipScratch slip;
 };
 
@@ -76,16 +77,5 @@ enum class FlightOutcome {
 /// @param fallback set where options.law could not be met and nodal_energy was used
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& flight, bool& fallback);
-
-// Of flight.cpp, for flight_friction.cpp:
-
-/// Holds a resting pair closed from now on; its gap is brought to exactly 0. @return false: no room
-bool hold(const ModelData& model, int pair, Node& node, Flight& flight);
-
-/// Lets go of the pair of constraint i. The last constraint takes its place.
-void release(int i, Node& node, Flight& flight);
-
-/// The gap below which a pair that rests at the node is pressed: it may not sink any further.
-double floor_of(const Node& node, int pair);
 
 }  // namespace saltus

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "variational/holds.hpp"
 #include "variational/impact_time.hpp"
 #include "variational/launch.hpp"
 #include "variational/slip_blocks.hpp"
@@ -186,7 +187,7 @@ bool rests_with_friction(const Node& node) {
 
 void make_room(const ModelData& model, Node& node, Flight& f) {
   const auto contacts = static_cast<std::size_t>(node.touching);
-  const std::size_t wanted = 3 * contacts + 1;  // and a launch
+  const std::size_t wanted = 3 * contacts + 2;  // a launch, and one for prepare_hold
   node.friction.reserve(contacts);
   f.slip.friction.reserve(contacts);
   f.slip.before.reserve(f.slip.friction.contact.capacity());

@@ -83,11 +83,14 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
     }
     if (!b.hi_is_closed && g.slope >= 0) return ImpactTime::missed;
     phi_before = std::abs(g.phi);
-    const double next = next_tau(b, tau, g);
+    // slopes leave constraints aside, and may lead nowhere
+    const bool halve = k >= 10 && b.hi_is_closed;
+    const double next = halve ? (b.lo + b.hi) / 2 : next_tau(b, tau, g);
     f.arc.v += (next - tau) * f.rate;
     tau = next;
   }
-  return ImpactTime::not_located;
+  // no duration was found at which the gap is closed: it grazes, a double root and no impact
+  return b.hi_is_closed ? ImpactTime::not_located : ImpactTime::missed;
 }
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.

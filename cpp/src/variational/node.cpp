@@ -99,6 +99,7 @@ Node::Node(const ModelData& model)
   G.column.reserve(reserved * reserved);
   G.value.reserve(reserved * reserved);
   cascade.key.reserve(reserved);
+  rested.reserve(reserved);
   cascade.winner.reserve(4 * reserved);
   if (friction.any) friction.memory.resize(contact_of.size());
   contacts_on.resize(trees.of.size());

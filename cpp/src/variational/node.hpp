@@ -74,6 +74,7 @@ struct Node {
   std::vector<Impulse> impulses;
   std::vector<ContactImpulse> closing;  ///< of held contacts, until told; `pair` by place
   std::vector<int> silent;              ///< pairs with an entry in `sunk`
+  std::vector<int> rested;              ///< pairs that rested at the node before
   double total_mass = 0;
   double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
@@ -84,6 +85,16 @@ struct Node {
 Contact fresh_contact(const TreeCoordinates& trees, bool with_friction);
 
 Contact::Motion motion_of(double u, double epsilon_u);
+
+/// Writes the contact of a pair, with gap `g` and rows of the pair `as`; adds it if it is new.
+/// Needs M and v.
+void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
+                   const Pair& as, const Gap& g, Node& node);
+
+void drop_last_contact(Node& node);
+
+/// M and v = M^-1 p at the node. @return false where the mass matrix is singular
+bool set_velocity_at_node(const ModelData& model, Node& node);
 
 /// Writes u, epsilon_u and motion from n and the node's v. Needs typical_speed.
 void classify(const Node& node, double speed, double relative, Contact& c);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/holds.hpp"
 #include "variational/slip_blocks.hpp"
 
 namespace saltus {
@@ -56,7 +57,8 @@ double lawlessness(const ModelData& model, const Node& node, Flight& f) {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.motion != Contact::Motion::rests || node.held[c.pair]) continue;
-    const Gap g = pair_gap_at_end(model, node.pool[c.pair], f.scratch);
+    const Pair& pair = prepare_hold(model, c.pair, node, f).watched();
+    const Gap g = pair_gap_at_end(model, pair, f.scratch);
     // a hundredth of what touches: many that sank each by its own part would fit no motion
     if (g.phi >= std::min(0.0, c.phi) - 1e-2 * node.pool[c.pair].touch) continue;
     f.closing = c.pair;

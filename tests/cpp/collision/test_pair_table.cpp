@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "collision/random_scene.hpp"
 #include "saltus/error.hpp"
@@ -28,14 +30,15 @@ struct Rules : PairRules {
 
 TEST(PairTable, NumbersEveryWatchedPairOnceRowByRow) {
   Random random(51);
-  const std::vector<std::string> kinds = {"sphere", "capsule", "box", "cylinder", "half_space"};
+  const std::vector<std::string> kinds = {"sphere",   "capsule",    "box",
+                                          "cylinder", "half_space", "convex"};
   for (int scene = 0; scene < 50; ++scene) {
     const int n = 1 + random.index(30);
     std::vector<PlacedShape> shapes;
     Rules rules;
     for (int i = 0; i < n; ++i) {
       shapes.push_back(
-          place(random_shape(kinds[random.index(5)], random), random.index(8) - 1, {}));
+          place(random_shape(kinds[random.index(6)], random), random.index(8) - 1, {}));
       rules.group.push_back(random.index(3));
     }
     for (int k = random.index(6); k > 0; --k) {
@@ -55,7 +58,7 @@ TEST(PairTable, NumbersEveryWatchedPairOnceRowByRow) {
         ASSERT_EQ(table.count(j, i), parts);
         if (parts == 0) continue;
         used[i] = used[j] = 1;
-        ASSERT_EQ(table.first(j, i), number);
+        ASSERT_EQ(table.range(j, i).first, number);
         for (int part = 0; part < parts; ++part, ++number) {
           const PairTable::Key key = table.key(number);
           ASSERT_EQ(key.a, i);
@@ -69,12 +72,40 @@ TEST(PairTable, NumbersEveryWatchedPairOnceRowByRow) {
   }
 }
 
+// Pinned: corners, crossings, rims, whole. A gem has 4 corners and 6 edges, a hull of 12 sides 24
+// and 36, which with a box are more than 400 crossings.
+TEST(PairTable, CountsTheParts) {
+  const auto hull = [](int sides) {
+    std::vector<Vec3> points;
+    for (int k = 0; k < 2 * sides; ++k) {
+      const double angle = (k / 2) * 2 * std::numbers::pi / sides;
+      points.emplace_back(std::cos(angle), std::sin(angle), k % 2);
+    }
+    if (sides == 2) points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return Convex{std::make_shared<const Hull>(convex_hull(points))};
+  };
+  const Shape rod = Capsule{1, 1}, box = Box{Vec3::Ones()}, can = Cylinder{1, 1};
+  const Shape gem = hull(2), prism = hull(6), drum = hull(12), floor = HalfSpace{};
+  EXPECT_EQ(part_count(rod, can), 2 + 8 + 3 + 2);
+  EXPECT_EQ(part_count(can, box), 8 + 8 + 12 * 3 + 2);
+  EXPECT_EQ(part_count(can, can), 8 + 8 + 1 + 4 + 2 + 4);
+  EXPECT_EQ(part_count(can, floor), 8 + 2);
+  EXPECT_EQ(part_count(gem, rod), 4 + 2 + 6);
+  EXPECT_EQ(part_count(box, gem), 8 + 4 + 12 * 6);
+  EXPECT_EQ(part_count(gem, gem), 4 + 4 + 6 * 6);
+  EXPECT_EQ(part_count(prism, prism), 12 + 12 + 18 * 18);
+  EXPECT_EQ(part_count(gem, can), 4 + 8 + 6 * 3 + 2);
+  EXPECT_EQ(part_count(drum, can), 24 + 8 + 36 * 3 + 2);
+  EXPECT_EQ(part_count(drum, box), 24 + 8 + 1);
+  EXPECT_EQ(part_count(drum, drum), 24 + 24 + 1);
+}
+
 TEST(PairTable, HasRoomForTenThousandBalls) {
   std::vector<PlacedShape> shapes;
   for (int i = 0; i < 10000; ++i) shapes.push_back(place(Sphere{1}, i, {}));
   const PairTable table = testing_scene::table_of(shapes);
   EXPECT_EQ(table.size(), 10000 * 9999 / 2);
-  EXPECT_EQ(table.first(9998, 9999), table.size() - 1);
+  EXPECT_EQ(table.range(9998, 9999).first, table.size() - 1);
   EXPECT_EQ(table.key(table.size() - 1).a, 9998);
 }
 

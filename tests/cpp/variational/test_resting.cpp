@@ -173,33 +173,5 @@ TEST(Resting, APlankAcrossAPlank) {
   EXPECT_LE(r.drift, still);
 }
 
-// A corner that slides over the border of a face is let go, and the edges that cross there take the
-// load: they hop by what a step without support falls, g h^2 = 2.5e-4 m, and less. The box goes on,
-// and tips when its centre is over the border.
-TEST(Resting, ABoxSlidesOverTheEdgeOfATable) {
-  ModelBuilder b("table");
-  b.add_shape("world", Box{{1, 1, 0.5}}, {Mat3::Identity(), {0, 0, -0.5}});
-  const Vec3 half(0.2, 0.1, 0.1);
-  b.add_link({"block", solid_box(1, half)});
-  b.add_joint({.name = "block",
-               .type = JointType::floating,
-               .parent = "world",
-               .child = "block",
-               .X_PJ = {Mat3::Identity(), {0.5, 0, 0.1}}});
-  b.add_shape("block", Box{half});
-  const Model model = b.build();
-  State state = model.state({}, {{"block_x", 1}});
-  const double energy = model.kinetic_energy(state) + model.potential_energy(state.q);
-  Stepper stepper(model, {.h = 0.005});
-  const int x = model.coordinate("block_x"), pitch = model.coordinate("block_pitch");
-  for (int k = 0; k < 96; ++k) stepper.step(state);  // its centre is 0.02 m before the border
-  EXPECT_NEAR(state.q[x], 0.48, 2.5e-4);
-  EXPECT_LE(std::abs(state.q[pitch]), 2.5e-4 / 0.2);
-  for (int k = 0; k < 40; ++k) stepper.step(state);
-  EXPECT_GT(state.q[pitch], 0.01);  // it tips over the border
-  const double now = model.kinetic_energy(state) + model.potential_energy(state.q);
-  EXPECT_NEAR(now, energy, 1e-3);  // the contact goes over from corners to an edge
-}
-
 }  // namespace
 }  // namespace saltus

@@ -1,10 +1,10 @@
-// Which pairs can touch along a chord: sweep and prune over balls swept by the motion.
+// Which pairs can touch along a chord: balls swept by the motion, and a list of near pairs.
 //
 // Every shape is held by a ball about its origin at q; along the chord it stays within a ball
 // larger by the most that its origin can move. Pairs whose larger balls are disjoint cannot touch.
-// The balls are kept sorted by their lower end along one axis between calls, so that a coherent
-// motion in a row costs O(n) (insertion sort); where too many overlap along any one axis, a tree of
-// balls takes over, O(n log n). Half-spaces are held against all balls.
+// The pairs whose balls would overlap if they were larger still, by a skin, are gathered by a tree
+// of balls, O(n log n), and serve until a ball leaves the one it was gathered with: most calls of a
+// coherent motion are O(n). Half-spaces are held against all balls.
 #pragma once
 
 #include <utility>
@@ -14,8 +14,8 @@
 
 namespace saltus {
 
-/// Scratch and coherence of the sweep; allocates at construction only, except that `candidates`
-/// grows beyond a million pairs. Any state is valid for any configuration: it only saves time.
+/// Scratch and coherence; allocates at construction only, except that the lists of pairs grow
+/// beyond a million. What it holds from earlier calls saves time and changes no candidate.
 struct BroadPhase {
   BroadPhase() = default;
   SALTUS_EXPORT BroadPhase(const Tree& tree, const std::vector<PlacedShape>& shapes,
@@ -25,10 +25,6 @@ struct BroadPhase {
 
   std::vector<int> unbounded;  ///< half-spaces that are in a pair
   std::vector<int> bounded;    ///< the other shapes that are in a pair, ascending
-  std::vector<int> order;      ///< the bounded ones by lower end along `axis`; by find_candidates
-  int axis = 0;  ///< of the sweep: the one along which the shapes are spread; likewise
-  int rest = 0;  ///< calls left in which the tree is used without a sweep; likewise
-  BallTree tree;
   /// What is asked of a shape, packed: shapes themselves are long.
   struct Ball {
     int joint;
@@ -38,9 +34,26 @@ struct BroadPhase {
   std::vector<Ball> ball;      ///< (shapes)
   std::vector<Vec3> center;    ///< (shapes) [m] p_WG; by find_candidates
   std::vector<double> reach;   ///< (shapes) [m] radius of the swept ball; likewise
-  std::vector<double> lower;   ///< (shapes) [m] its lower end along `axis`; likewise
+  std::vector<Vec3> normal;    ///< (shapes) outward, of half-spaces; likewise
   std::vector<double> moved;   ///< (n) [m] the most a joint frame's origin can move; likewise
   std::vector<double> turned;  ///< (n) [rad] the most it can turn; likewise
+
+  // What is kept between calls, written where a ball has left the one that it was gathered with.
+  std::vector<Vec3> held_center;   ///< (shapes) [m] of the balls with their skins
+  std::vector<double> held_reach;  ///< (shapes) [m] likewise
+  BallTree tree;
+  int calls_left = 0;  ///< gathers until the tree is built anew
+  int age = 0;         ///< calls since the last gather
+  struct Meeting {
+    int i, j;  ///< shapes, i < j
+  };
+  std::vector<Meeting> met;  ///< whose held balls overlap
+  std::vector<int> row;      ///< (shapes + 1) where the later partners of a shape end in `near`
+  struct Near {
+    int i, j;                  ///< i < j
+    PairTable::Range numbers;  ///< of their gaps
+  };
+  std::vector<Near> near;  ///< those of `met` that are watched, ascending
 };
 
 /// Writes bp.candidates: every pair that can come to phi <= margin on the chord from q by dq (n_q).
@@ -49,7 +62,7 @@ SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedSha
                                    const PairTable& pairs, const Kinematics& kin, const VecRef& dq,
                                    double margin, BroadPhase& bp);
 
-/// Forgets the coherence. The candidates of balls that touch to the last bit may depend on it.
+/// Forgets what is kept between calls.
 SALTUS_EXPORT void start_anew(BroadPhase& bp);
 
 }  // namespace saltus

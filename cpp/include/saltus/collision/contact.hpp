@@ -42,6 +42,16 @@ enum class PairKind {
   crossing,  ///< that of two edges, where they cross; nothing where they do not
 };
 
+/// Which place of a cylinder's rims a part is about.
+enum class RimPart {
+  none,
+  nearest,  ///< of one rim, against all of the other shape
+  in,       ///< where an edge goes in over a rim: seen along its own axis
+  out,      ///< where it comes out
+  left,     ///< where two rims cross that lie flat on each other: one place
+  right,    ///< and the other
+};
+
 /// epsilon_phi by the size of the smaller shape: far above the rounding of positions (1e-16 of the
 /// scene) and far below what anybody can see.
 inline constexpr double relative_touch = 1e-10;
@@ -51,12 +61,16 @@ struct Pair {
   int a = -1, b = -1;  ///< indices of shapes
   int part = 0;        ///< which of the gaps of these two shapes
   PairKind kind = PairKind::whole;
-  Placed on_a, on_b;  ///< the parts that face each other; b alone may be a half-space
-  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();  ///< edges: out of the shape, in the part's
-                                                    ///< frame; 0 for an axis
-  std::vector<Vec3> inward;  ///< corner: along the edges that meet in it, in its frame; none where
-                             ///< it is round
-  bool skips_corners = false;     ///< corners have gaps of their own: none where one is nearest
+  Placed on_a, on_b;            ///< the parts that face each other; b alone may be a half-space
+  RimPart rim = RimPart::none;  ///< not none: a is the cylinder
+  /// Out of the shape, in the part's frame: of an edge between its two faces, with n.out >= 1 for
+  /// all n from one's normal to the other's; along the axis for a rim
+  /// and its points; 0 for an axis.
+  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();
+  std::vector<Vec3> inward;    ///< corner, rim: along the edges that meet in it, in its frame; none
+                               ///< where it is round or the other has no flat faces
+  bool lists_edges = false;    ///< those of the two shapes have gaps of their own where they cross
+  bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
 };
@@ -66,12 +80,16 @@ SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_
 
 /// Gap of a pair at the configuration in `kin`; see part_gap. Needs set_configuration.
 SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair);
+/// Likewise, where a moves by `motion_W` against b.
+SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                           const Vec3& motion_W);
 
 /// True where the pair is of parts that do not face each other there; see parts.hpp.
 SALTUS_EXPORT bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair,
                              const Gap& gap);
 
-/// [m] Distance of two edges with their ends, never below minus their radii. Needs a pair of edges
+/// [m] Distance of two edges with their ends, never below minus their radii; of an edge and a
+/// cylinder no more than that, but 0 or less only where they are near. Needs a pair of edges
 /// (PairKind::crossing) and set_configuration.
 SALTUS_EXPORT double edge_distance(const Tree& tree, const Kinematics& kin, const Pair& pair);
 

@@ -29,10 +29,12 @@ class SALTUS_EXPORT PairTable {
   int size() const { return row_.empty() ? 0 : static_cast<int>(row_.back()); }
   bool empty() const { return size() == 0; }
 
-  /// Gaps between two shapes; 0 where they are not watched.
-  int count(int a, int b) const;
-  /// Number of the first of them. Needs count(a, b) > 0.
-  int first(int a, int b) const;
+  /// Numbers of the gaps between two shapes: first, first + 1, ...
+  struct Range {
+    int first, count;  ///< count is 0 where they are not watched
+  };
+  Range range(int a, int b) const;
+  int count(int a, int b) const { return range(a, b).count; }
 
   struct Key {
     int a, b, part;  ///< a < b
@@ -47,6 +49,7 @@ class SALTUS_EXPORT PairTable {
   using Count = long long;
   int classes() const { return static_cast<int>(parts_.size()); }
   void classify(const std::vector<PlacedShape>& shapes, const PairRules& rules);
+  const int* before(int kind) const { return before_.data() + kind * (class_.size() + 1); }
   /// Gaps of shape i with those between two others (left out), without the list of exclusions.
   Count row_between(int i, int from, int to) const;
   /// Gaps of shape i with those between it and j.
@@ -57,10 +60,10 @@ class SALTUS_EXPORT PairTable {
     int kind;
     std::vector<int> shape;
   };
-  std::vector<int> class_;                  ///< (shapes)
-  std::vector<std::vector<int>> parts_;     ///< (classes, classes) gaps of two shapes
-  std::vector<std::vector<int>> before_;    ///< (classes, shapes + 1) of the class before a shape
-  std::vector<int> body_;                   ///< (shapes) joint frame, numbered
+  std::vector<int> class_;               ///< (shapes)
+  std::vector<std::vector<int>> parts_;  ///< (classes, classes) gaps of two shapes
+  std::vector<int> before_;  ///< (classes, shapes + 1), rows joined: of the class before a shape
+  std::vector<int> body_;    ///< (shapes) joint frame, numbered
   std::vector<std::vector<Members>> on_;    ///< (bodies)
   std::vector<std::vector<int>> excluded_;  ///< (shapes) later ones, ascending, watched otherwise
   std::vector<Count> row_;                  ///< (shapes + 1) number of the first pair of a row

@@ -6,10 +6,12 @@
 //
 //   corners   of a box, ends of a capsule, vertices of a convex solid, four points on each rim of a
 //             cylinder, against the other shape (theory, section 7: a sphere of radius 0)
-//   edges     of two boxes, a box and a capsule's axis, two axes, where they cross
-//   rims      of a cylinder on a half-space, each at its lowest point
-//   whole     the signed distance of the two, where they have edges or faces that are not listed
-//             above; silent where a corner is nearest
+//   edges     of boxes and convex solids, axes of capsules and cylinders, where they cross
+//   over      an edge and the rims of a cylinder that lies flat on it: where it goes in below the
+//             cap, and where it comes out; two rims: left and right
+//   rims      of a cylinder, as discs, against the other shape: each at its nearest point
+//   whole     the signed distance of the two, in place of edges where there are too many of them;
+//             silent where a corner or a rim is nearest
 //
 // The smallest of them is the signed distance, where that is near 0.
 #pragma once
@@ -40,8 +42,13 @@ SALTUS_EXPORT std::string pair_name(const std::vector<PlacedShape>& shapes, cons
 /// on smoothly, and means nothing there: is_silent tells. phi is infinite between parallel edges.
 SALTUS_EXPORT Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB);
 
-/// True where the part does not face the other: edges that do not cross, a whole whose nearest
-/// point is a corner with a gap of its own, the rim of a cylinder that stands.
+/// The same where a moves by `motion_W` against b: it decides where a corner is on several faces at
+/// once, of which it leaves one fastest. phi is the greatest of their heights, and grows as that.
+SALTUS_EXPORT Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB,
+                           const Vec3& motion_W);
+
+/// True where the part does not face the other: edges that do not cross, a whole or a rim whose
+/// nearest point has a gap of its own, the rim of a cylinder that stands.
 SALTUS_EXPORT bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap);
 
 }  // namespace saltus
