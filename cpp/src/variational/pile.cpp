@@ -39,7 +39,7 @@ void sort_by_island(const ContactBlocks& W, PileScratch& s) {
 
 }  // namespace
 
-/// H = 1 + rho L^T P' L at s.trial.
+/// H = 1 + rho K^T P' L at s.trial.
 void PileIsland::set_slope(double rho) {
   std::fill(s_.H.begin(), s_.H.end(), 0.0);
   for (int c = 0; c < r_; ++c) s_.H[static_cast<std::size_t>(c) * r_ + c] = 1;
@@ -57,10 +57,10 @@ void PileIsland::set_slope(double rho) {
     }
     for (int a = 0; a < 3; ++a) {
       const Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
-      const Row l = row_of_L(3 * i + a);
+      const Row y = row_of_K(3 * i + a);
       for (int c = first; c < s_.last[i]; ++c) {
-        if (l[c] != 0)
-          Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_ + first, n) += l[c] * x;
+        if (y[c] != 0)
+          Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_ + first, n) += y[c] * x;
       }
     }
   }
@@ -189,8 +189,8 @@ void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
   for (auto* each : {&u, &p, &q, &base, &trial}) each->reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
-  for (auto* each : {&row, &DL}) each->reserve(9 * k);
-  for (auto* each : {&L, &H}) each->reserve(9 * k * k);
+  DL.reserve(9 * k);
+  for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
   pivot.reserve(3 * k);
 }
 

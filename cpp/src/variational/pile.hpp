@@ -11,9 +11,10 @@
 //   p_k+1 = P(p_k - rho (u_0 + W p_k+1))      (the proximal point method, R. T. Rockafellar 1976)
 //
 // which has one solution where rho is small, and whose rounds end where the law holds exactly. With
-// W = L L^T and z = L^T p the unknowns are as few as the rates that do not follow from others:
+// W = L K^T (L = K where W is symmetric) and z = K^T p the unknowns are as few as the rates that do
+// not follow from others:
 //
-//   F(z) = z - L^T P(p_k - rho (u_0 + L z)) = 0,   F' = 1 + rho L^T P' L
+//   F(z) = z - K^T P(p_k - rho (u_0 + L z)) = 0,   F' = 1 + rho K^T P' L
 //
 // by Newton's method with backtracking on |F|. rho grows where that ends, and shrinks where not.
 // Impulses and rates are scaled by sqrt(W_ii), so that light and heavy bodies count alike.
@@ -33,8 +34,7 @@ struct PileScratch {
   std::vector<double> scale, friction, rest;   ///< (k)
   std::vector<int> first, last;                ///< (k) columns of L that the rows of a contact have
   std::vector<int> pivot;                      ///< (r) the rate that a column of L was made for
-  std::vector<double> L;                       ///< (3 k, r) by rows
-  std::vector<double> row;                     ///< (3, 3 k) of W
+  std::vector<double> W, L, K;                 ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
   std::vector<double> H, DL;                   ///< (r, r) F', (3, r)
   std::vector<Vec3> u, p, q, base, trial;      ///< (k) scaled rates and impulses
   std::vector<double> z, z_new, dz, F, F_new;  ///< (r)
@@ -57,7 +57,7 @@ struct Settled : Lawlessness {
 Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
                         const std::vector<Vec3>& p);
 
-/// @param W symmetric
+/// @param W its rank is that of its symmetric part: impulses push where they are felt
 /// @param u (m) rates with p in place, changed; @param p (m) guess in, solution out
 /// @param part of its residual at the start that is small enough
 /// @return what is left; has settled where excess <= small_residual

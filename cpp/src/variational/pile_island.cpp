@@ -36,8 +36,7 @@ void PileIsland::set_sizes() {
   for (auto* each : {&s_.scale, &s_.friction, &s_.rest}) each->resize(k);
   for (auto* each : {&s_.first, &s_.last}) each->resize(k);
   for (auto* each : {&s_.u, &s_.p, &s_.q, &s_.base, &s_.trial}) each->resize(k);
-  s_.row.resize(9 * k);
-  s_.L.resize(9 * k * k);
+  for (auto* each : {&s_.W, &s_.L, &s_.K}) each->resize(9 * k * k);
   s_.pivot.clear();
   for (int i = 0; i < k_; ++i) {
     s_.place[contact(i)] = i;
@@ -47,49 +46,58 @@ void PileIsland::set_sizes() {
   }
 }
 
-/// The row of L of a rate, and a column where it does not follow from those before.
+/// W by rows, scaled.
+void PileIsland::set_W() {
+  std::fill(s_.W.begin(), s_.W.end(), 0.0);
+  for (int by = 0; by < k_; ++by) {
+    const int c = contact(by);
+    for (int e = W_.start[c]; e < W_.start[c + 1]; ++e) {
+      const int at = s_.place[W_.contact[e]];
+      for (int rate = 0; rate < 3; ++rate) {
+        row_of(s_.W, 3 * at + rate).segment<3>(3 * by) =
+            s_.scale[at] * s_.scale[by] * W_.block[e].row(rate);
+      }
+    }
+  }
+}
+
+/// The rows of L and K of a rate, and a column where it does not follow from those before.
 void PileIsland::add_rate(int i, int rate) {
   const int at = 3 * i + rate;
-  Row x = row_of_L(at);
-  const double* w = s_.row.data() + static_cast<std::ptrdiff_t>(rate) * 3 * k_;
-  const double own = w[at];
+  Row x = row_of_L(at), y = row_of_K(at);
+  const double own = row_of(s_.W, at)[at];
   double left = own;
   int from = r_;
   for (int c = 0; c < r_; ++c) {
     const int pivot = s_.pivot[c];
-    double value = w[pivot];
-    const int begin = std::max(from, s_.first[pivot / 3]);
-    const Row y = row_of_L(pivot);
-    if (begin < c) value -= x.segment(begin, c - begin).dot(y.segment(begin, c - begin));
-    x[c] = value == 0 ? 0 : value / y[c];
-    if (value == 0) continue;
+    const int begin = std::max(std::min(from, c), s_.first[pivot / 3]), n = std::max(c - begin, 0);
+    double feels = row_of(s_.W, at)[pivot], felt = row_of(s_.W, pivot)[at];
+    feels -= x.segment(begin, n).dot(row_of_K(pivot).segment(begin, n));
+    felt -= y.segment(begin, n).dot(row_of_L(pivot).segment(begin, n));
+    x[c] = y[c] = 0;
+    if (feels == 0 && felt == 0) continue;
+    x[c] = feels / row_of_K(pivot)[c];
+    y[c] = felt / row_of_L(pivot)[c];
     from = std::min(from, c);
-    left -= x[c] * x[c];
+    left -= x[c] * y[c];
   }
   s_.first[i] = std::min(s_.first[i], from);
   if (!(left > dependent * own) || !(own > 1e-20)) return;
-  x[r_] = std::sqrt(left);
+  x[r_] = y[r_] = std::sqrt(left);
   s_.first[i] = std::min(s_.first[i], r_);
   s_.pivot.push_back(at);
   ++r_;
 }
 
-/// W = L L^T by rows, in the order of contacts: L has the bands that W has.
+/// W = L K^T by rows, in the order of contacts: L and K have the bands that W has.
 void PileIsland::factorize() {
+  set_W();
   for (int i = 0; i < k_; ++i) {
-    std::fill(s_.row.begin(), s_.row.end(), 0.0);
-    const int c = contact(i);
-    for (int e = W_.start[c]; e < W_.start[c + 1]; ++e) {
-      const int j = s_.place[W_.contact[e]];
-      for (int rate = 0; rate < 3; ++rate) {
-        for (int of = 0; of < 3; ++of) {
-          s_.row[static_cast<std::size_t>(3 * (rate * k_ + j) + of)] =
-              s_.scale[i] * s_.scale[j] * W_.block[e](of, rate);
-        }
-      }
-    }
     s_.first[i] = r_;
-    for (int rate = 0; rate < 3; ++rate) row_of_L(3 * i + rate).setZero();
+    for (int rate = 0; rate < 3; ++rate) {
+      row_of_L(3 * i + rate).setZero();
+      row_of_K(3 * i + rate).setZero();
+    }
     for (int rate = 0; rate < 3; ++rate) add_rate(i, rate);
     s_.last[i] = r_;
   }
@@ -123,7 +131,7 @@ void PileIsland::set_z() {
   for (int i = 0; i < k_; ++i) {
     const int first = s_.first[i], n = s_.last[i] - first;
     for (int rate = 0; rate < 3; ++rate) {
-      z.segment(first, n) += s_.p[i][rate] * row_of_L(3 * i + rate).segment(first, n);
+      z.segment(first, n) += s_.p[i][rate] * row_of_K(3 * i + rate).segment(first, n);
     }
   }
 }
@@ -142,7 +150,7 @@ double PileIsland::set_F(double rho, const std::vector<double>& at, std::vector<
     s_.trial[i] = a;
     s_.q[i] = to_cone(a, s_.friction[i]);
     for (int rate = 0; rate < 3; ++rate) {
-      F.segment(first, n) -= s_.q[i][rate] * row_of_L(3 * i + rate).segment(first, n);
+      F.segment(first, n) -= s_.q[i][rate] * row_of_K(3 * i + rate).segment(first, n);
     }
   }
   return F.norm();

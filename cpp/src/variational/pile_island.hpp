@@ -42,8 +42,13 @@ class PileIsland {
   Settled settle_scaled(double part);
   void set_base(double rho);
   int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
-  Row row_of_L(int i) { return {s_.L.data() + static_cast<std::ptrdiff_t>(i) * 3 * k_, 3 * k_}; }
+  Row row_of(std::vector<double>& matrix, int i) {
+    return {matrix.data() + static_cast<std::ptrdiff_t>(i) * 3 * k_, 3 * k_};
+  }
+  Row row_of_L(int i) { return row_of(s_.L, i); }
+  Row row_of_K(int i) { return row_of(s_.K, i); }
   void set_sizes();
+  void set_W();
   void factorize();
   void add_rate(int i, int rate);
   void feel(const std::vector<Vec3>& dp);
@@ -56,7 +61,7 @@ class PileIsland {
 
   const ContactBlocks& W_;
   int begin_, k_;  ///< contacts
-  int r_ = 0;      ///< columns of L
+  int r_ = 0;      ///< columns of L and K
   PileScratch& s_;
 };
 

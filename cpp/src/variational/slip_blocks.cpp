@@ -40,15 +40,19 @@ void set_rates(const ModelData& model, const Node& node, Flight& f) {
   }
 }
 
-/// J^-1 of the rows of a hold.
-void set_columns(const ModelData& model, bool slips, ArcConstraint& c, SlipRows& x, ArcScratch& s) {
-  c.column = c.row;
-  solve(model.tree, model.packed, s.J, c.column);
-  if (!slips) return;
-  x.column0 = x.t0;
-  x.column1 = x.t1;
-  solve(model.tree, model.packed, s.J, x.column0);
-  solve(model.tree, model.packed, s.J, x.column1);
+/// J^-1 of the rows of a hold's forces.
+void set_columns(const ModelData& model, const Node& node, ArcConstraint& c, SlipRows& x,
+                 ArcScratch& s) {
+  const Contact& contact = contact_of(node, c);
+  const auto set = [&](const ContactVector& force, VecX& column) {
+    column.setZero();
+    add(node.trees, 1, force, column);
+    solve(model.tree, model.packed, s.J, column);
+  };
+  set(contact.n, c.column);
+  if (!(contact.friction > 0)) return;
+  set(contact.t[0], x.column0);
+  set(contact.t[1], x.column1);
 }
 
 Mat3 block_of(const ArcConstraint& at, const SlipRows& row, bool at_slips, const ArcConstraint& by,
@@ -142,7 +146,7 @@ bool set_slip_blocks(const ModelData& model, const Node& node, Flight& f) {
   for (int i = 0; i < m; ++i) {
     ArcConstraint& c = f.constraints[x.contact[i]];
     W.friction.push_back(contact_of(node, c).friction);
-    set_columns(model, W.friction[i] > 0, c, f.slip.row[i], s);
+    set_columns(model, node, c, f.slip.row[i], s);
     // a hundredth of what touches is closed, over the arc
     W.rest.push_back(std::max(contact_of(node, c).epsilon_u, 1e-2 * c.pair->touch / f.arc.tau));
   }
@@ -154,11 +158,9 @@ bool set_slip_blocks(const ModelData& model, const Node& node, Flight& f) {
       const ArcConstraint& at = f.constraints[x.contact[i]];
       if (!share_a_tree(contact_of(node, at).n, contact_of(node, by).n)) continue;
       const bool at_slips = W.friction[i] > 0;
-      const Mat3 one = block_of(at, f.slip.row[i], at_slips, by, f.slip.row[j], by_slips);
-      const Mat3 other = block_of(by, f.slip.row[j], by_slips, at, f.slip.row[i], at_slips);
       W.contact.push_back(i);
-      W.block.push_back((one + other.transpose()) / 2);
-      if (i == j) W.own.push_back(W.block.back());
+      W.block.push_back(block_of(at, f.slip.row[i], at_slips, by, f.slip.row[j], by_slips));
+      if (i == j) W.own.push_back((W.block.back() + W.block.back().transpose()) / 2);
     }
   }
   W.start.push_back(static_cast<int>(W.contact.size()));

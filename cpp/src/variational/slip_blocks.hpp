@@ -1,10 +1,12 @@
 // What impulses at the holds of a flight change in its arc, and what they are.
 //
 // The rates u are those of the arc's constraints, with rows C: of the gap by its end, and T v in
-// its middle. An impulse, along the rows [N; T] at the arc's start, changes them by C J^-1 [N;
-// T]^T, with J the arc's Newton matrix. W is C J^-1 C^T, made symmetric: what follows from others
-// in u does so in W too, and that it is O(h) off where bodies turn is mended by the rounds that
-// solve the law.
+// its middle. An impulse, along the rows [N; T] at the arc's start, changes them by
+//
+//   W = C J^-1 [N; T]^T,   J the arc's Newton matrix
+//
+// which is symmetric but for O(h), as bodies turn within the arc. It is not made so: a mean with
+// its transpose would have twice the rank, with stiff directions where there is no motion at all.
 #pragma once
 
 #include "variational/flight.hpp"
