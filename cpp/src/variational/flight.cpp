@@ -149,6 +149,18 @@ bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight&
   return false;
 }
 
+/// Ends the bouncing of a pair. With friction it is the law of the arc that takes the last hop away,
+/// together with all that rests: in a pile one after the other would make each other hop.
+void settle_hop(const ModelData& model, int contact, Node& node) {
+  Contact& c = node.contacts[contact];
+  if (c.friction > 0) {
+    c.motion = Contact::Motion::rests;
+    return;
+  }
+  come_to_rest(model, contact, node);
+  node.held[c.pair] = 0;  // until this arc presses it, or it would fall through
+}
+
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
 ImpactTime shorten(const ModelData& model, const StepOptions& options, const FirstHit& hit,
                    double tau, Node& node, Flight& f) {
@@ -171,8 +183,7 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
   }
   if (found == ImpactTime::settles) {
     f.settlings.push_back({node.t + f.settling_time, hit.pair});
-    come_to_rest(model, node.contact_of[hit.pair], node);
-    node.held[hit.pair] = 0;  // until this arc presses it, or it would fall through
+    settle_hop(model, node.contact_of[hit.pair], node);
   }
   f.arc.v = f.start_v;
   return found;
