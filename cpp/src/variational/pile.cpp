@@ -150,34 +150,51 @@ void PileIsland::set_base(double rho) {
   }
 }
 
+/// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or ends
+/// farther from the law
+bool PileIsland::take_round(double rho, Settled& out) {
+  set_z();
+  set_base(rho);
+  bool ended = false;
+  out.iterations += solve_round(rho, ended);
+  if (!ended) return false;
+  set_F(rho, s_.z, s_.F);
+  for (int i = 0; i < k_; ++i) s_.trial[i] = s_.q[i] - s_.p[i];
+  s_.u_before = s_.u;
+  feel(s_.trial);
+  s_.p.swap(s_.q);
+  const PileResidual now = residual();
+  if (now.worst < out.worst) {
+    out = {now.part(), now.worst, out.iterations};
+    return true;
+  }
+  s_.p.swap(s_.q);
+  s_.u.swap(s_.u_before);
+  return false;
+}
+
 /// s.u are the rates with s.p in place.
 Settled PileIsland::settle_scaled(double part) {
-  Settled out{residual(), 0};
+  const PileResidual start = residual();
+  Settled out{start.part(), start.worst, 0};
   const double enough = std::max(settled, part * out.residual);
   if (out.residual <= settled) return out;
-  // far from the law softly, near it not
-  double rho = std::clamp(1e-3 / out.residual, 1.0, 1e4), best = out.residual;
-  int idle = 0;
   factorize();
+  // far from the law softly, near it not; at once where it is known what each contact does
+  const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
+  double rho = stiff_rho, best = out.residual;
+  int idle = 0;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
-    set_z();
-    set_base(rho);
-    bool ended = false;
-    out.iterations += solve_round(rho, ended);
-    if (!ended) {
-      rho /= 8;
+    if (!take_round(rho, out)) {
+      if (out.residual < 1e-11) break;  // rounding
+      rho = round == 0 ? soft : rho / 8;
       continue;
     }
-    set_F(rho, s_.z, s_.F);
-    for (int i = 0; i < k_; ++i) s_.trial[i] = s_.q[i] - s_.p[i];
-    feel(s_.trial);
-    s_.p.swap(s_.q);
-    static_cast<Lawlessness&>(out) = residual();
     if (out.residual < best / 2) {
       best = out.residual;
       idle = 0;
-    } else if (out.residual < 1e-11 || (rho > stiff_rho && ++idle == most_idle)) {
-      break;  // rounding, or rates that no impulses can end
+    } else if (rho > stiff_rho && ++idle == most_idle) {
+      break;  // rates that no impulses can end
     }
     rho = std::min(4 * rho, most_rho);
   }
@@ -187,7 +204,7 @@ Settled PileIsland::settle_scaled(double part) {
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
-  for (auto* each : {&u, &p, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&u, &u_before, &p, &q, &base, &trial}) each->reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);

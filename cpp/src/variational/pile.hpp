@@ -36,7 +36,7 @@ struct PileScratch {
   std::vector<int> pivot;                      ///< (r) the rate that a column of L was made for
   std::vector<double> W, L, K;                 ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
   std::vector<double> H, DL;                   ///< (r, r) F', (3, r)
-  std::vector<Vec3> u, p, q, base, trial;      ///< (k) scaled rates and impulses
+  std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
   std::vector<double> z, z_new, dz, F, F_new;  ///< (r)
 
   void reserve(std::size_t contacts);
@@ -50,6 +50,7 @@ struct Lawlessness {
 };
 
 struct Settled : Lawlessness {
+  double worst = 0;    ///< |p - P(p - u)|, of scaled contacts
   int iterations = 0;  ///< Newton's, of all islands
 };
 

@@ -119,10 +119,10 @@ void PileIsland::feel(const std::vector<Vec3>& dp) {
   }
 }
 
-Lawlessness PileIsland::residual() const {
+PileResidual PileIsland::residual() const {
   PileResidual sum;
   for (int i = 0; i < k_; ++i) sum.add(s_.u[i], s_.p[i], s_.friction[i], s_.rest[i]);
-  return sum.part();
+  return sum;
 }
 
 void PileIsland::set_z() {

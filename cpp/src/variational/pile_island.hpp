@@ -40,6 +40,7 @@ class PileIsland {
 
  private:
   Settled settle_scaled(double part);
+  bool take_round(double rho, Settled& out);
   void set_base(double rho);
   int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
   Row row_of(std::vector<double>& matrix, int i) {
@@ -52,7 +53,7 @@ class PileIsland {
   void factorize();
   void add_rate(int i, int rate);
   void feel(const std::vector<Vec3>& dp);
-  Lawlessness residual() const;
+  PileResidual residual() const;
   double set_F(double rho, const std::vector<double>& z, std::vector<double>& F);
   void set_slope(double rho);
   bool solve_slope();
