@@ -84,7 +84,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/energy_meter.cpp
   cpp/src/variational/coxeter.cpp
   cpp/src/variational/flight.cpp
-  cpp/src/variational/flight_friction.cpp
+  cpp/src/variational/friction_arc.cpp
   cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
   cpp/src/variational/grip.cpp
@@ -102,7 +102,6 @@ set(SALTUS_SOURCES
   cpp/src/variational/pile_island.cpp
   cpp/src/variational/redundant.cpp
   cpp/src/variational/slip_blocks.cpp
-  cpp/src/variational/slip_law.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/stepper.cpp
   # rollout

@@ -10,8 +10,6 @@
 // Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
 //   hold    phi(q + tau v) = target     a sustained contact; n = phi_q at the arc's start
 //   launch  E_d = target                the paper's (11c) after an impact along n
-//   stick   t(q_mid).v = 0              the points that touch do not slide along the tangent t; n
-//                                       is the row t at the arc's start (slip.hpp)
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
 // (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
@@ -32,27 +30,25 @@
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
-#include "variational/grip.hpp"
-#include "variational/redundant.hpp"
+#include "variational/coulomb.hpp"
 #include "variational/small_system.hpp"
 
 namespace saltus {
 
 struct ArcConstraint {
-  enum class Kind { hold, launch, stick };
+  enum class Kind { hold, launch };
   Kind kind = Kind::hold;
-  int place = -1;              ///< of the pair in the stepper's pool (hold, stick)
+  int place = -1;              ///< of the pair in the stepper's pool (hold)
   const Pair* pair = nullptr;  ///< likewise
   bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
   Pair face;
   double target = 0;            ///< [m] or [J]
   double lambda = 0;            ///< [N s] guess in, solution out
-  int axis = 0;                 ///< of the tangents (stick, and hold where there is friction)
-  int tangent = 0;              ///< which of the two (stick)
-  Grip grip;                    ///< (hold) n is phi_q - mu T^T d where it slides
-  Vec2 carried = Vec2::Zero();  ///< (hold) [N s] along tangents that no `stick` solves for
-  VecX n;                       ///< (n_q) direction of the force
-  VecX row, column;             ///< (n_q) scratch: dc/dv and J^-1 n
+  VecX n;             ///< (n_q) direction of the force
+  VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
+  // where there is friction
+  int axis = 0;                    ///< of the tangents
+  Vec2 tangential = Vec2::Zero();  ///< [N s] friction, along them at the arc's start
 
   const Pair& watched() const { return in_face ? face : *pair; }
 };
@@ -99,7 +95,6 @@ struct ArcScratch {
   Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
   VecX x, L_v, L_q, r, scale, dv;
   VecX L_qv_v, L_vq_v, L_qq_v;
-  RedundantSystem many;  ///< of more constraints than most_constraints
 };
 
 /// @return false when it does not converge within options.max_iterations; `arc` then holds the
@@ -122,7 +117,7 @@ inline void set_second_partials(const ModelData& model, ArcScratch& s) {
   s.has_second = true;
 }
 
-/// What solve_arc is made of, for closing_arc.cpp and flight_friction.cpp.
+/// What solve_arc is made of, for closing_arc.cpp and slip_blocks.cpp.
 ///
 /// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
 /// scaled size, infinity where it is not a number.

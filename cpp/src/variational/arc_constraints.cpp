@@ -3,25 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "saltus/collision/slip.hpp"
-
 namespace saltus {
 namespace {
-
-/// The rate at which a sticking pair slides; its gradient, but for the turning of t, in c.row.
-double slide_rate(const ModelData& model, const VecX& v, ArcConstraint& c, ArcScratch& s) {
-  c.row.setZero();
-  const Gap g = pair_gap_at_mid(model, c.watched(), s);
-  const Tangents t = tangents(g.n_W, c.axis);
-  add_motion_gradient(model.tree, s.kin_end, c.watched(), contact_point(g),
-                      c.tangent == 0 ? t.t0 : t.t1, c.row);
-  return c.row.dot(v);
-}
 
 /// c and dc/dv of one constraint; c is scaled by tau (hold), so that it stays regular at tau = 0.
 double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, ArcConstraint& c,
                   ArcScratch& s) {
-  if (c.kind == ArcConstraint::Kind::stick) return slide_rate(model, v, c, s);
   c.row.setZero();
   if (c.kind == ArcConstraint::Kind::hold) {
     const Gap g = pair_gap_at_end(model, c.watched(), s);
@@ -39,27 +26,6 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
   return discrete_energy(model, a, v, s) - c.target;
 }
 
-/// add_constraints for any number. A tower of ten boxes has 70 constraints on 60 coordinates.
-void add_many_constraints(const ModelData& model, const ArcProblem& a, const VecX& v,
-                          ArcScratch& s) {
-  const int m = static_cast<int>(a.constraints.size());
-  s.many.start(m);
-  for (int i = 0; i < m; ++i) {
-    ArcConstraint& c = a.constraints[i];
-    s.many.b(i) = -constraint(model, a, v, c, s) - c.row.dot(s.dv);
-    c.column = c.n;
-    solve(model.tree, model.packed, s.J, c.column);
-  }
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < m; ++j) s.many.A(i, j) = a.constraints[i].row.dot(a.constraints[j].column);
-  }
-  s.many.solve();
-  for (int i = 0; i < m; ++i) {
-    a.constraints[i].lambda += s.many.b(i);
-    s.dv += s.many.b(i) * a.constraints[i].column;
-  }
-}
-
 }  // namespace
 
 void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
@@ -67,7 +33,6 @@ void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v,
   if (m == 0) return;
   s.x = a.q + a.tau * v;
   place_end(model, s.x, s);
-  if (m > most_constraints) return add_many_constraints(model, a, v, s);
   SmallMat S(m, m);
   SmallVec rhs(m);
   for (int i = 0; i < m; ++i) {
@@ -93,11 +58,7 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
   s.x = a.q + a.tau * v;
   place_end(model, s.x, s);
   for (ArcConstraint& c : a.constraints) {
-    if (c.kind == ArcConstraint::Kind::stick) {
-      // a hundredth of what closes a gap: what slides does not come back
-      const double way = a.tau * slide_rate(model, v, c, s);
-      size = std::max(size, std::abs(way) / c.pair->touch * 1e-10);
-    } else if (c.kind == ArcConstraint::Kind::hold) {
+    if (c.kind == ArcConstraint::Kind::hold) {
       const double phi = pair_gap_at_end(model, c.watched(), s).phi;
       // 1e-12: a hundredth of pair.touch is closed
       size = std::max(size, std::abs(phi - c.target) / c.pair->touch * 1e-12);

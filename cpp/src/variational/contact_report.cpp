@@ -25,7 +25,7 @@ void tell_holds(const Node& node, Flight& f, StepReport& report) {
   for (int i = 0; i < f.active; ++i) {
     const ArcConstraint& c = f.constraints[i];
     if (c.kind != ArcConstraint::Kind::hold) continue;
-    const Vec3 p = impulse_of(node, c, f);
+    const Vec3 p = impulse_of(c);
     tell(node.pool.number(c.place), p[0], across(contact_of(node, c), p), report);
   }
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
-#include "variational/flight_friction.hpp"
+#include "variational/friction_arc.hpp"
 #include "variational/holds.hpp"
 #include "variational/impact_time.hpp"
 #include "variational/launch.hpp"
@@ -69,23 +69,23 @@ bool is_hop(const Node& node, int pair) {
 /// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
 /// from the velocity at the node.
 bool solve_first_arc(const ModelData& model, const StepOptions& options, double left,
-                     const Node& node, Flight& f) {
+                     Node& node, Flight& f) {
   if (f.history.extrapolate(node.t + left / 2, f.arc.v)) {
     if (solve_flight_arc(model, options, left, node, f)) return true;
-    for (int i = 0; i < f.active; ++i) f.constraints[i].lambda = 0;
+    forget_impulses(f);
   }
   f.arc.v = node.v;
   if (f.has_rate) {  // of the arc that ended here at an impact: its acceleration goes on, nearly
     f.arc.v += left * f.rate;
     if (solve_flight_arc(model, options, left, node, f)) return true;
-    for (int i = 0; i < f.active; ++i) f.constraints[i].lambda = 0;
+    forget_impulses(f);
     f.arc.v = node.v;
   }
   return solve_flight_arc(model, options, left, node, f);
 }
 
 /// An arc of no duration, where something at the node has to be resolved first.
-FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options, const Node& node,
+FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options, Node& node,
                              Flight& f) {
   f.active = 0;
   f.arc.v = node.v;
@@ -93,7 +93,12 @@ FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options,
                                                       : FlightOutcome::not_converged;
 }
 
-/// Holds and grips what was held, and solves the arc over the whole time left.
+FlightOutcome no_arc(const Node& node) {
+  return needs_friction_arc(node) ? FlightOutcome::friction_not_settled
+                                  : FlightOutcome::not_converged;
+}
+
+/// Holds what was held, and solves the arc over the whole time left.
 FlightOutcome begin(const ModelData& model, const StepOptions& options, double left, Node& node,
                     Flight& f) {
   fit(node.pool.size(), f);
@@ -103,28 +108,21 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   f.active = 0;
   if (node.friction.any) make_room(model, node, f);
   if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
-  if (node.friction.any) start_grips(left, node, f);
-  return solve_first_arc(model, options, left, node, f) || restart(model, options, left, node, f)
-             ? FlightOutcome::arrived
-             : FlightOutcome::not_converged;
+  if (node.friction.any) recall_impulses(left, node, f);
+  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived
+                                                        : no_arc(node);
 }
 
-/// Complementarity of what is held and of what sticks; `settled` is false where the arc has to be
-/// solved again.
-FlightOutcome update_contacts(const ModelData& model, const StepOptions& options, Node& node,
-                              Flight& f, bool& settled) {
-  if (rests_with_friction(node)) {
-    if (update_grips(model, options, node, f) != Grips::settled) {
-      return FlightOutcome::friction_not_settled;
-    }
+/// Complementarity of what is held, which friction has in its arcs; `settled` is false where the arc
+/// has to be solved again.
+FlightOutcome update_contacts(const ModelData& model, Node& node, Flight& f, bool& settled) {
+  if (needs_friction_arc(node)) {
     settled = !level_rods(model, node, f);
     return FlightOutcome::arrived;
   }
-  const bool let_go = drop_sticks(f);
   const Holds holds = update_holds(model, node, f);
-  if (holds == Holds::too_many) return FlightOutcome::too_many_contacts;
-  settled = holds == Holds::unchanged && !let_go;
-  return FlightOutcome::arrived;
+  settled = holds == Holds::unchanged;
+  return holds == Holds::too_many ? FlightOutcome::too_many_contacts : FlightOutcome::arrived;
 }
 
 /// An end of a rod whose axis is held on an edge, where the edge comes to that end: the two touch
@@ -201,7 +199,7 @@ Flight::Flight(const ModelData& model, const StepOptions& options, bool with_fri
   settlings.reserve(64);
   const int n_q = model.tree.coordinates;
   for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
-  for (VecX* x : {&slip.carried, &slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
+  for (VecX* x : {&slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
   for (ArcConstraint& c : constraints) c = fresh_constraint(model);
 }
 
@@ -218,12 +216,12 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     if (solved || solve_flight_arc(model, options, tau, node, f)) {
       if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
       bool settled = true;
-      outcome = update_contacts(model, options, node, f, settled);
+      outcome = update_contacts(model, node, f, settled);
       solved = false;
       if (!settled || outcome != FlightOutcome::arrived) continue;
       const FirstHit hit = first_hit(model, node, f);
       if (hit.pair < 0) {
-        remember_grips(node, f);
+        remember_impulses(node, f);
         return FlightOutcome::arrived;
       }
       found = shorten(model, options, hit, tau, node, f);
@@ -238,9 +236,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
     solved = found == ImpactTime::found;
     if (solved) tau = f.arc.tau;
     if (found != ImpactTime::not_converged) continue;
-    solved = restart(model, options, tau, node, f);
-    if (solved) continue;
-    if (!drop_launch(node, f)) return FlightOutcome::not_converged;
+    if (!drop_launch(node, f)) return no_arc(node);
     fallback = true;
     tau = left;
   }

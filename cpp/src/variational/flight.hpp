@@ -25,16 +25,15 @@ struct SlipRows {
   VecX t0, t1, column0, column1;  ///< (n_q)
 };
 
-/// Scratch of flight_friction.cpp; empty without friction.
+/// Scratch of friction_arc.cpp; empty without friction.
 struct SlipScratch {
   explicit SlipScratch(bool with_friction) : friction(with_friction) {}
   FrictionScratch friction;   ///< of the holds; `contact` are their constraints
   std::vector<SlipRows> row;  ///< of the holds
-  std::vector<Vec3> before;
-  bool restarted = false;  ///< the arc has been solved anew without what was held before
-  bool carries = false;    ///< some impulses are no unknowns of the arc:
-  VecX carried, p;         ///< (n_q) their sum; the node's p and that, written by arc_problem
-  VecX size;               ///< (n_q) of all that is summed up in p, written by set_slip_rates
+  std::vector<Vec3> before;   ///< impulses
+  double tau = 0;             ///< [s] the arc that the impulses of the holds are over
+  VecX p;     ///< (n_q) the node's with all impulses, written by set_slip_rates
+  VecX size;  ///< (n_q) of all that is summed up in it, likewise
 };
 
 struct Flight {

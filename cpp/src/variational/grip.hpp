@@ -47,12 +47,10 @@ struct IndependentRates {
 };
 
 /// What an impulse was in the last arc, for a guess.
-struct GripMemory {
-  Grip grip;
-  Vec3 p = Vec3::Zero();            ///< [N s] over `tau`
-  std::array<bool, 2> solved = {};  ///< its tangents that are constraints, where it sticks
-  double tau = 0;                   ///< [s]
-  int flight = -1;                  ///< its number; an older one is no guess
+struct ImpulseMemory {
+  Vec3 p = Vec3::Zero();  ///< [N s] over `tau`
+  double tau = 0;         ///< [s]
+  int flight = -1;        ///< its number; an older one is no guess
 };
 
 /// One unknown of `polish`: an impulse at a contact along a direction, and the rate that it ends.
@@ -81,7 +79,7 @@ struct FrictionScratch {
   std::vector<FrictionImpulse> impulses;
   PileScratch pile;
   PolishScratch polish;
-  std::vector<GripMemory> memory;  ///< (pool), of a node
+  std::vector<ImpulseMemory> memory;  ///< (pool), of a node
   double residual = 0;             ///< of Coulomb's law, the largest of a step's closing half kicks
   int flight = 0;                  ///< the number of the flight that leaves the node
 };

@@ -41,8 +41,7 @@ ArcConstraint& prepare_hold(const ModelData& model, int pair, const Node& node, 
   // many that touch cannot all be brought to 0: with friction they stay where rounding left them
   if (node.friction.any) c.target = std::min(contact.phi, 0.0);
   c.pair = &node.pool[pair];
-  c.grip = {};
-  c.carried.setZero();
+  c.tangential.setZero();
   c.axis = tangent_axis(contact.n_W);
   c.in_face = is_sharp(*c.pair) || f.level[pair];
   if (c.in_face) hold_in_face(model, contact, *c.pair, node, c);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "variational/closing_arc.hpp"
+#include "variational/friction_arc.hpp"
 
 namespace saltus {
 namespace {
@@ -46,8 +47,8 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
 
 /// Time and velocity at once; false leaves the flight's guess as it was.
 bool refine_at_once(const ModelData& model, const StepOptions& options, const Pair& pair,
-                    double tau, double longest, const Node& node, Flight& f) {
-  if (f.active > 0) return false;
+                    double tau, double longest, Node& node, Flight& f) {
+  if (f.active > 0 || needs_friction_arc(node)) return false;
   f.before_v = f.arc.v;
   f.arc.tau = tau;
   const ClosingGap gap{pair, longest, f.n, f.rate};
@@ -59,7 +60,7 @@ bool refine_at_once(const ModelData& model, const StepOptions& options, const Pa
 }
 
 ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair& pair, double tau,
-                  Bracket b, const Node& node, Flight& f) {
+                  Bracket b, Node& node, Flight& f) {
   if (refine_at_once(model, options, pair, tau, b.hi, node, f)) return ImpactTime::found;
   const double touch = pair.touch;
   const double whole = b.hi;
@@ -96,7 +97,7 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
 /// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
 ImpactTime find_return(const ModelData& model, const StepOptions& options, int place,
-                       const Node& node, Flight& f) {
+                       Node& node, Flight& f) {
   const int contact = node.contact_of[place];
   if (contact < 0) return ImpactTime::missed;  // a part that does not face the other any more
   const Contact& c = node.contacts[contact];
@@ -125,26 +126,26 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
 
 ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
   const std::span constraints(f.constraints.data(), static_cast<std::size_t>(f.active));
-  const VecX& p = f.slip.carries && f.active > 0 ? f.slip.p : node.p;
-  if (&p == &f.slip.p) f.slip.p = node.p + f.slip.carried;
-  return {node.q, p, tau, constraints, whole_step(options)};
+  return {node.q, node.p, tau, constraints, whole_step(options)};
 }
 
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
-                      const Node& node, Flight& f) {
-  const ArcProblem problem = arc_problem(options, tau, node, f);
-  const bool converged = solve_arc(model, problem, options, f.arc, f.scratch);
+                      Node& node, Flight& f) {
+  const bool converged =
+      tau > 0 && needs_friction_arc(node)
+          ? solve_friction_arc(model, options, tau, node, f)
+          : solve_arc(model, arc_problem(options, tau, node, f), options, f.arc, f.scratch);
   f.iterations += f.arc.iterations;
   return converged;
 }
 
 ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int place, double s,
-                            const Node& node, Flight& f) {
+                            Node& node, Flight& f) {
   if (s <= 0) return find_return(model, options, place, node, f);
   const Pair& pair = node.pool[place];
   const double tau = f.arc.tau;
   // most often the velocity of the shorter arc can be told from the arcs before
-  if (f.active == 0 && f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
+  if (f.active == 0 && !needs_friction_arc(node) && f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
     if (refine_at_once(model, options, pair, s * tau, tau, node, f)) return ImpactTime::found;
     f.arc.v = f.start_v;
     if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;

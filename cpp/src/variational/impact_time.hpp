@@ -17,14 +17,15 @@ enum class ImpactTime {
 
 ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& flight);
 
-/// Solves the arc of duration tau from the node with the flight's active constraints.
+/// Solves the arc of duration tau from the node: with the flight's active constraints, or where
+/// there is friction with all that rests (friction_arc.hpp).
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
-                      const Node& node, Flight& flight);
+                      Node& node, Flight& flight);
 
 /// @param place of the pair in the node's pool
 /// @param s where on the chord of flight.arc (of duration tau) the gap closes; 0 for a pair that
 /// touches at the node and leaves: then the time of its return is sought.
 ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int place, double s,
-                            const Node& node, Flight& flight);
+                            Node& node, Flight& flight);
 
 }  // namespace saltus

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "variational/friction_arc.hpp"
 #include "variational/impact_time.hpp"
 
 namespace saltus {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool match_arc(const ModelData& model, const StepOptions& options, double left, const Node& node,
+bool match_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
                Flight& f) {
   const double energy = arc_energy(model, arc_problem(options, left, node, f), f.arc, f.scratch);
   const double mismatch = std::abs(energy - node.launch.energy);
@@ -101,6 +102,7 @@ bool drop_launch(const Node& node, Flight& f) {
 bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
             Flight& f) {
   node.launch.pending = false;
+  if (needs_friction_arc(node)) return false;  // its impulses are all that is sought
   if (options.law == ImpactLaw::shadow_energy) return match_shadow(model, options, left, node, f);
   return match_arc(model, options, left, node, f);
 }

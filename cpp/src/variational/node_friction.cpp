@@ -123,7 +123,7 @@ bool settle_with_friction(const ModelData& model, Node& node) {
   if (!any) return false;
   set_blocks(model, node);
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
-    const GripMemory& memory = s.memory[node.contacts[s.contact[i]].pair];
+    const ImpulseMemory& memory = s.memory[node.contacts[s.contact[i]].pair];
     if (memory.flight != s.flight) continue;
     s.p[i] = memory.p;  // the opening half kick is near the closing one
     const int k = static_cast<int>(i);
@@ -131,7 +131,7 @@ bool settle_with_friction(const ModelData& model, Node& node) {
       s.u[s.W.contact[e]] += s.W.block[e] * memory.p;
     }
   }
-  s.residual = std::max(s.residual, settle_for_sure(s.W, s.pile, s.u, s.p));
+  s.residual = std::max(s.residual, settle_for_sure(s.W, s.pile, s.u, s.p).excess);
   polish(s.W, s.polish, s.u, s.p);
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
     const Contact& c = node.contacts[s.contact[i]];

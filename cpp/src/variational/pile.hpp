@@ -54,7 +54,10 @@ struct Settled : Lawlessness {
   int iterations = 0;  ///< Newton's, of all islands
 };
 
-/// Of rates u that p has been added to.
+/// |p - P(p - u)| of one contact, scaled, and of rates u that p has been added to.
+double lawlessness_of(const ContactBlocks& W, int contact, const Vec3& u, const Vec3& p);
+
+/// Of all contacts.
 Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
                         const std::vector<Vec3>& p);
 
@@ -65,9 +68,10 @@ Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
 Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
                     std::vector<Vec3>& p, double part = 0);
 
-/// The same, and where Newton's method fails Gauss-Seidel sweeps. @return excess
-double settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
-                       std::vector<Vec3>& p);
+/// The same, and where Newton's method does not halve what there was, or with part = 0 does not
+/// settle, Gauss-Seidel sweeps before it.
+Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
+                        std::vector<Vec3>& p, double part = 0);
 
 /// `collide` (friction.hpp) with room that stays.
 bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch& pile,

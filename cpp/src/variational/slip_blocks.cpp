@@ -12,12 +12,16 @@ namespace {
 
 using Kind = ArcConstraint::Kind;
 
-const ArcConstraint* find_stick(const Flight& f, int place, int tangent) {
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind == Kind::stick && c.place == place && c.tangent == tangent) return &c;
-  }
-  return nullptr;
+/// Rows T of a hold in the middle of the arc.
+void add_slide_rows(const ModelData& model, const ArcConstraint& c, ArcScratch& s, VecX& t0,
+                    VecX& t1) {
+  const Gap g = pair_gap_at_mid(model, c.watched(), s);
+  const Tangents t = tangents(g.n_W, c.axis);
+  const Vec3 P = contact_point(g);
+  t0.setZero();
+  t1.setZero();
+  add_motion_gradient(model.tree, s.kin_end, c.watched(), P, t.t0, t0);
+  add_motion_gradient(model.tree, s.kin_end, c.watched(), P, t.t1, t1);
 }
 
 /// Rates of all holds at flight.arc.v. Needs the poses in the arc's middle.
@@ -74,29 +78,6 @@ void clear_blocks(ContactBlocks& W) {
 }
 
 }  // namespace
-
-Vec3 impulse_of(const Node& node, const ArcConstraint& c, Flight& f) {
-  if (c.grip.mode == Grip::Mode::slides) {
-    return c.lambda * slide_direction(c.grip, contact_of(node, c).friction);
-  }
-  Vec3 p(c.lambda, 0, 0);
-  for (int k = 0; k < 2 && c.grip.mode == Grip::Mode::sticks; ++k) {
-    const ArcConstraint* stick = find_stick(f, c.place, k);
-    p[k + 1] = stick ? stick->lambda : c.carried[k];
-  }
-  return p;
-}
-
-void add_slide_rows(const ModelData& model, const ArcConstraint& c, ArcScratch& s, VecX& t0,
-                    VecX& t1) {
-  const Gap g = pair_gap_at_mid(model, c.watched(), s);
-  const Tangents t = tangents(g.n_W, c.axis);
-  const Vec3 P = contact_point(g);
-  t0.setZero();
-  t1.setZero();
-  add_motion_gradient(model.tree, s.kin_end, c.watched(), P, t.t0, t0);
-  add_motion_gradient(model.tree, s.kin_end, c.watched(), P, t.t1, t1);
-}
 
 Lawlessness set_slip_rates(const ModelData& model, const StepOptions& options, const Node& node,
                            Flight& f) {

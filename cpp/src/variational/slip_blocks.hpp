@@ -17,12 +17,10 @@ inline const Contact& contact_of(const Node& node, const ArcConstraint& hold) {
   return node.contacts[node.contact_of[hold.place]];
 }
 
-/// Impulse of a hold over the arc, in its tangents.
-Vec3 impulse_of(const Node& node, const ArcConstraint& hold, Flight& flight);
-
-/// Rows T of a hold in the middle of the arc.
-void add_slide_rows(const ModelData& model, const ArcConstraint& hold, ArcScratch& s, VecX& t0,
-                    VecX& t1);
+/// Impulse of a hold over the arc, (lambda, beta) in its tangents.
+inline Vec3 impulse_of(const ArcConstraint& c) {
+  return {c.lambda, c.tangential[0], c.tangential[1]};
+}
 
 /// Of the holds in flight.slip.friction.contact with the impulses in flight.slip.friction.p: writes
 /// their rates u at flight.arc.v, and flight.slip.p, the momentum that all forces have been added

@@ -6,7 +6,7 @@
 #include "variational/arrival.hpp"
 #include "variational/check_options.hpp"
 #include "variational/contact_report.hpp"
-#include "variational/flight_friction.hpp"
+#include "variational/friction_arc.hpp"
 #include "variational/impact_time.hpp"
 
 namespace saltus {
@@ -42,7 +42,7 @@ struct Stepper::Impl {
   double conserved_energy();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome) const;
-  [[noreturn]] void fail_jammed() const;
+  [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
   std::string contact_list() const;
   std::string singular_joint() const;
@@ -161,7 +161,7 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
   ++report.arcs;
-  report.sustained += count_holds(flight);
+  report.sustained += flight.active;
   tell_holds(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
 }
@@ -271,7 +271,12 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }
 
-void Stepper::Impl::fail_jammed() const {
+void Stepper::Impl::fail_jammed() {
+  set_contact_matrix(*model, node);
+  if (has_friction(node) && can_open(node)) {
+    flight.closing = node.contacts[0].pair;
+    fail(FlightOutcome::friction_not_settled);
+  }
   std::ostringstream text;
   text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
        << " impulses: "
