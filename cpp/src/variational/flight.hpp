@@ -32,6 +32,7 @@ struct SlipScratch {
   std::vector<SlipRows> row;  ///< of the holds
   std::vector<Vec3> before;   ///< impulses
   double tau = 0;             ///< [s] the arc that the impulses of the holds are over
+  double residual = 0;        ///< of Coulomb's law, in the arc just solved
   VecX p;     ///< (n_q) the node's with all impulses, written by set_slip_rates
   VecX size;  ///< (n_q) of all that is summed up in it, likewise
 };

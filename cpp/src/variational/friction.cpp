@@ -62,7 +62,7 @@ bool all_plastic(const ContactBlocks& W) {
 bool stop_together(const ContactBlocks& W, PileScratch& pile, std::vector<Vec3>& u,
                    std::vector<Vec3>& p, std::vector<FrictionImpulse>& impulses) {
   p.assign(u.size(), Vec3::Zero());
-  if (!(settle_for_sure(W, pile, u, p).excess <= small_residual)) return false;
+  if (!(settle_for_sure(W, pile, u, p).excess <= large_residual)) return false;
   for (int i = 0; i < W.size(); ++i) {
     if (p[i][0] > 0) impulses.push_back({i, p[i]});
   }

@@ -13,12 +13,14 @@ namespace saltus {
 namespace {
 
 constexpr int most_rounds = 40;          ///< 2 to 6 are usual
+constexpr int most_idle = 8;             ///< rounds that do not halve what is unlawful
 constexpr double most_residual = 1e-12;  ///< of the arc's equation, quadratically less as a rule
 
-/// To rounding; or where redundant contacts that turn keep from it, as far as it will go.
+/// To rounding, which grows with what holds each other; or where redundant contacts that turn keep
+/// from it, as far as it will go.
 /// @param before the residual of the round before
-bool is_lawful(const Lawlessness& law, double before) {
-  if (law.residual <= 1e-11) return true;
+bool is_lawful(const Lawlessness& law, double before, std::size_t contacts) {
+  if (law.residual <= 1e-15 * static_cast<double>(contacts)) return true;
   return law.residual > before / 2 && law.least() <= small_residual;
 }
 
@@ -97,16 +99,20 @@ bool solve_rounds(const ModelData& model, const StepOptions& options, double tau
   f.arc.tau = tau;
   bool is_solved = false;  // that is, the impulses are lawful for the v that belongs to them
   double before = std::numeric_limits<double>::infinity();
-  for (int round = 0;; ++round) {
+  for (int round = 0, idle = 0;; ++round) {
     f.arc.iterations = round;
     const Lawlessness now = set_slip_rates(model, options, node, f);
-    if (is_solved && f.arc.residual <= most_residual && is_lawful(now, before)) break;
-    if (round == most_rounds || !std::isfinite(now.residual) || !set_slip_blocks(model, node, f)) {
+    f.slip.residual = now.least();
+    const bool ends = round == most_rounds || idle == most_idle;
+    if (f.arc.residual <= most_residual && ends && f.slip.residual <= large_residual) break;
+    if (f.arc.residual <= most_residual && is_solved && is_lawful(now, before, x.contact.size())) break;
+    if (ends || !std::isfinite(now.residual) || !set_slip_blocks(model, node, f)) {
       f.closing = most_lawless(f);
       return false;
     }
     const Lawlessness law = lawlessness(x.W, x.u, x.p);
-    is_solved = is_lawful(law, before);
+    is_solved = is_lawful(law, before, x.contact.size());
+    idle = law.residual > before / 2 ? idle + 1 : 0;
     before = law.residual;
     if (is_solved) continue;
     f.slip.before = x.p;

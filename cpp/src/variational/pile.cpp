@@ -7,10 +7,10 @@
 namespace saltus {
 namespace {
 
-constexpr double settled = 1e-13;  ///< residual that is rounding
+constexpr double settled = 1e-15;  ///< residual that is rounding
 constexpr int most_rounds = 80;    ///< 5 to 20 are usual
 constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
-constexpr int most_idle = 3;       ///< stiff rounds that halve nothing
+constexpr int most_idle = 40;      ///< rounds that halve nothing
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e8;
 
 int root_of(int i, std::vector<int>& island) {
@@ -185,19 +185,15 @@ Settled PileIsland::settle_scaled(double part) {
   double rho = stiff_rho, best = out.residual;
   int idle = 0;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
-    if (!take_round(rho, out)) {
-      // rounding, of impulses or of gaps
-      if (out.residual < 1e-11 || (out.excess <= 0 && ++idle == most_idle)) break;
-      rho = round == 0 ? soft : rho / 8;
-      continue;
-    }
+    const bool taken = take_round(rho, out);
+    if (!taken && out.residual < 1e-12) break;  // rounding
     if (out.residual < best / 2) {
       best = out.residual;
       idle = 0;
-    } else if (rho > stiff_rho && ++idle == most_idle) {
-      break;  // rates that no impulses can end
+    } else if (++idle == (out.excess <= 0 || rho > stiff_rho ? 3 : most_idle)) {
+      break;  // rounding of gaps, or rates that no impulses can end
     }
-    rho = std::min(4 * rho, most_rho);
+    rho = taken ? std::min(4 * rho, most_rho) : round == 0 ? soft : rho / 8;
   }
   return out;
 }

@@ -81,4 +81,7 @@ bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch&
 /// Rounding of rates that impulses hold against each other is far below; so is what would be felt.
 inline constexpr double small_residual = 1e-9;
 
+/// More is an error. Between the two a step goes on, and reports it.
+inline constexpr double large_residual = 1e-6;
+
 }  // namespace saltus

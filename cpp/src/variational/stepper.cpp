@@ -81,7 +81,7 @@ void Stepper::forget() { impl_->last_is_valid = false; }
 // The step: fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step(State& state) {
   report.iterations = report.arcs = report.sustained = 0;
-  report.residual = node.friction.residual = 0;
+  report.residual = report.friction_residual = node.friction.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
   report.friction.clear();
@@ -160,6 +160,9 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().fallback = true;
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
+  if (flight.active > 0) {
+    report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
+  }
   ++report.arcs;
   report.sustained += flight.active;
   tell_holds(node, flight, report);
@@ -171,7 +174,8 @@ void Stepper::Impl::arrive(double t) {
   if (t > node.t || report.arcs > 0) {
     if (!arrive_at_node(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
     tell_closing(node, report);
-    if (!(node.friction.residual <= small_residual)) {
+    report.friction_residual = std::max(report.friction_residual, node.friction.residual);
+    if (!(node.friction.residual <= large_residual)) {
       flight.closing = node.contacts[node.friction.contact[0]].pair;
       fail(FlightOutcome::friction_not_settled);
     }

@@ -50,6 +50,9 @@ struct StepReport {
   int arcs = 0;         ///< arcs that the step is made of; 1 without impacts
   int sustained = 0;    ///< arcs' contacts that were held closed by a force
   double residual = 0;  ///< [largest momentum] of the worst arc
+  /// How far from Coulomb's law the step is, of its arcs and its closing half kicks the worst: by a
+  /// part of the largest impulse or rate. To 1e-9 it is rounding; more than 1e-6 is an error.
+  double friction_residual = 0;
   std::vector<Impact> impacts;
   std::vector<Impulse> impulses;
   std::vector<Settling> settlings;
