@@ -16,6 +16,7 @@ __all__: list[str] = [
     "BodyInertia",
     "Box",
     "Capsule",
+    "ContactImpulse",
     "ContactProperties",
     "Convex",
     "Coordinate",
@@ -1577,6 +1578,8 @@ class Impact:
         Names of the pairs, in the order of the impulses; a pair may occur more than once.
     lambdas : numpy.ndarray, shape (impulses,)
         [N s] the impulses, `p += lambda * phi_q`.
+    tangentials : numpy.ndarray, shape (impulses, 3)
+        [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
     contacts : int
         Pairs that touched.
     law : ImpactLaw
@@ -1597,6 +1600,8 @@ class Impact:
         law: ImpactLaw,
         fallback: bool,
         certificate: str = "",
+        tangentials: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
+        | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -1614,6 +1619,31 @@ class Impact:
     def pairs(self) -> list[str]: ...
     @property
     def t(self) -> float: ...
+    @property
+    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+
+class ContactImpulse:
+    """
+    What held a pair closed over a step: its impulses, but for those of impacts.
+
+    Divided by the step `h` these are its mean forces.
+
+    Attributes
+    ----------
+    pair : str
+        Name of the pair.
+    normal : float
+        [N s] along the normal, >= 0.
+    tangential : numpy.ndarray, shape (3,)
+        [N s] friction on the pair's first shape, in the world; 0 without friction.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def normal(self) -> float: ...
+    @property
+    def pair(self) -> str: ...
+    @property
+    def tangential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
 
 class StepReport:
     """
@@ -1632,10 +1662,14 @@ class StepReport:
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
+    contacts : list of ContactImpulse
+        What held pairs closed over the step, impacts left aside.
     """
     def __repr__(self) -> str: ...
     @property
     def arcs(self) -> int: ...
+    @property
+    def contacts(self) -> list[ContactImpulse]: ...
     @property
     def impacts(self) -> list[Impact]: ...
     @property
@@ -1781,6 +1815,11 @@ class Trajectory:
     def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         [s] shape (rows,)
+        """
+    @property
+    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [N s] shape (impulses, 3)
         """
     @property
     def total(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
