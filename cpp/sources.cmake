@@ -132,6 +132,7 @@ set(SALTUS_SOURCES
 )
 
 set(SALTUS_BINDING_SOURCES
+  python/bindings/argument_errors.cpp
   python/bindings/arguments.cpp
   python/bindings/core.cpp
   python/bindings/bind_errors.cpp
