@@ -818,7 +818,7 @@ class Model:
         link: str | int,
     ) -> Pose:
         """
-        Pose of a link in the world.
+        Pose of a link in the world; `Model::X_WL` in C++.
 
         Parameters
         ----------
@@ -830,7 +830,12 @@ class Model:
         Returns
         -------
         Pose
-            `.matrix()` is the homogeneous matrix.
+            Origin [m] and axes of the link's frame; `.matrix()` is the homogeneous matrix, shape (4, 4).
+
+        Raises
+        ------
+        ModelError
+            On an unknown link or coordinate, a wrong shape, or a value that is not finite.
         """
     def poses(
         self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], link: str | int
