@@ -146,6 +146,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_motion.cpp
+  python/bindings/pickle.cpp
   # urdf
   python/bindings/bind_urdf.cpp
   # variational
