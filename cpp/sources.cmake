@@ -131,6 +131,7 @@ set(SALTUS_SOURCES
 )
 
 set(SALTUS_BINDING_SOURCES
+  python/bindings/argument_errors.cpp
   python/bindings/arguments.cpp
   python/bindings/core.cpp
   python/bindings/bind_errors.cpp
@@ -144,6 +145,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_motion.cpp
+  python/bindings/pickle.cpp
   # urdf
   python/bindings/bind_urdf.cpp
   # variational

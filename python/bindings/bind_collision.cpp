@@ -1,5 +1,6 @@
 // Collision floor: shapes, and the gap between two of them.
 #include "bindings.hpp"
+#include "pickle.hpp"
 #include "saltus/collision/contact.hpp"
 #include "saltus/collision/hull.hpp"
 
@@ -120,40 +121,49 @@ void bind_convex(py::module_& m) {
       .def_property_readonly("faces", &faces_of,
                              "vertices of each face, counterclockwise seen from outside")
       .def_property_readonly("edges", &edges_of, "vertices at the two ends of each edge")
-      .def("__repr__", [](const Convex& c) { return show(c); });
+      .def("__repr__", [](const Convex& c) { return show(c); })
+      .def(py::pickle(
+          [](const Convex& c) { return to_tuple(*c.hull); },
+          [](const py::tuple& t) { return Convex{std::make_shared<const Hull>(to_hull(t))}; }));
 }
 
 void bind_shapes(py::module_& m) {
   py::class_<Sphere>(m, "Sphere", "A ball about its frame's origin.")
       .def(py::init([](double radius) { return Sphere{radius}; }), py::arg("radius"))
       .def_readonly("radius", &Sphere::radius, "[m]")
-      .def("__repr__", [](const Sphere& s) { return show(s); });
+      .def("__repr__", [](const Sphere& s) { return show(s); })
+      .def(pickle_fields<Sphere, &Sphere::radius>());
   py::class_<Capsule>(m, "Capsule",
                       "All points within `radius` of the segment |z| <= `half_length`.")
       .def(py::init([](double radius, double half_length) { return Capsule{radius, half_length}; }),
            py::arg("radius"), py::arg("half_length"))
       .def_readonly("radius", &Capsule::radius, "[m]")
       .def_readonly("half_length", &Capsule::half_length, "[m] of the segment, without the caps")
-      .def("__repr__", [](const Capsule& c) { return show(c); });
+      .def("__repr__", [](const Capsule& c) { return show(c); })
+      .def(pickle_fields<Capsule, &Capsule::radius, &Capsule::half_length>());
   py::class_<Box>(m, "Box", "|x| <= half[0], |y| <= half[1], |z| <= half[2].")
       .def(py::init([](const Vec3& half) { return Box{half}; }), py::arg("half"))
       .def_readonly("half", &Box::half, "[m] half-extents, shape (3,)")
-      .def("__repr__", [](const Box& b) { return show(b); });
+      .def("__repr__", [](const Box& b) { return show(b); })
+      .def(pickle_fields<Box, &Box::half>());
   py::class_<Cylinder>(m, "Cylinder", "Axis z, |z| <= `half_length`.")
       .def(
           py::init([](double radius, double half_length) { return Cylinder{radius, half_length}; }),
           py::arg("radius"), py::arg("half_length"))
       .def_readonly("radius", &Cylinder::radius, "[m]")
       .def_readonly("half_length", &Cylinder::half_length, "[m]")
-      .def("__repr__", [](const Cylinder& c) { return show(c); });
+      .def("__repr__", [](const Cylinder& c) { return show(c); })
+      .def(pickle_fields<Cylinder, &Cylinder::radius, &Cylinder::half_length>());
   py::class_<HalfSpace>(m, "HalfSpace",
                         "The solid z <= 0 of its frame; only the root link may carry one.")
       .def(py::init<>())
-      .def("__repr__", [](const HalfSpace& h) { return show(h); });
+      .def("__repr__", [](const HalfSpace& h) { return show(h); })
+      .def(pickle_fields<HalfSpace>());
   py::class_<Ellipsoid>(m, "Ellipsoid", "(x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.")
       .def(py::init([](const Vec3& radii) { return Ellipsoid{radii}; }), py::arg("radii"))
       .def_readonly("radii", &Ellipsoid::radii, "[m] shape (3,)")
-      .def("__repr__", [](const Ellipsoid& e) { return show(e); });
+      .def("__repr__", [](const Ellipsoid& e) { return show(e); })
+      .def(pickle_fields<Ellipsoid, &Ellipsoid::radii>());
   bind_convex(m);
 }
 

@@ -2,6 +2,7 @@
 #include <pybind11/native_enum.h>
 
 #include "bindings.hpp"
+#include "pickle.hpp"
 #include "saltus/lagrangian/partials.hpp"
 #include "saltus/model/model_builder.hpp"
 
@@ -123,7 +124,8 @@ void bind_inertia(py::module_& m) {
           [](const BodyInertia& body, const Pose& X_PB) { return transform(X_PB, body); },
           py::arg("X_PB"), "The same body in frame P, where this one is given in frame B.")
       .def("__add__", &weld, py::arg("other"), py::is_operator())
-      .def("__repr__", &show);
+      .def("__repr__", &show)
+      .def(pickle_fields<BodyInertia, &BodyInertia::mass, &BodyInertia::c_J, &BodyInertia::I_J>());
   m.def("solid_box", &solid_box, solid_box_doc, py::arg("mass"), py::arg("half"));
   m.def("solid_cylinder", &solid_cylinder, solid_cylinder_doc, py::arg("mass"), py::arg("radius"),
         py::arg("half_length"));

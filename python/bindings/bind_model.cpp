@@ -3,6 +3,8 @@
 
 #include "bindings.hpp"
 #include "model_docs.hpp"
+#include "pickle.hpp"
+#include "saltus/model/model_builder.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -183,11 +185,28 @@ void bind_contact_properties(py::module_& m) {
   py::class_<P>(m, "ContactProperties", contact_properties_doc)
       .def_readonly("restitution", &P::restitution)
       .def_readonly("friction", &P::friction)
-      .def("__repr__", [](const P& p) {
-        return "ContactProperties(restitution=" +
-               py::repr(py::float_(p.restitution)).cast<std::string>() +
-               ", friction=" + py::repr(py::float_(p.friction)).cast<std::string>() + ")";
-      });
+      .def("__repr__",
+           [](const P& p) {
+             return "ContactProperties(restitution=" +
+                    py::repr(py::float_(p.restitution)).cast<std::string>() +
+                    ", friction=" + py::repr(py::float_(p.friction)).cast<std::string>() + ")";
+           })
+      .def(pickle_fields<P, &P::restitution, &P::friction>());
+}
+
+/// A model goes to another process as what it is built of, and is built there: the same bits.
+void bind_copies(py::class_<Model>& c) {
+  c.def("__copy__", [](const Model& m) { return m; })
+      .def(
+          "__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"))
+      .def(py::pickle(
+          [](const Model& m) {
+            return py::make_tuple(to_tuple(*m->description), !m->pairs.empty());
+          },
+          [](const py::tuple& t) {
+            const Model whole = ModelBuilder(to_description(t[0])).build();
+            return t[1].cast<bool>() ? whole : whole.without_collisions();
+          }));
 }
 
 }  // namespace
@@ -200,6 +219,7 @@ void bind_model(py::module_& m) {
   bind_gaps(m);
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);
+  bind_copies(c);
   c.def(
        "state",
        [](const Model& model, const Coordinates& q, const Coordinates& v, double t) {

@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "model_builder_docs.hpp"
+#include "pickle.hpp"
 #include "saltus/model/model_builder.hpp"
 
 namespace saltus::bindings {
@@ -63,7 +64,8 @@ void bind_model_builder(py::module_& m) {
       .def_readonly("joint", &Mimic::joint)
       .def_readonly("multiplier", &Mimic::multiplier)
       .def_readonly("offset", &Mimic::offset, "[rad | m]")
-      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; });
+      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
+      .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
 
   py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
       .value("excluded", AdjacentLinks::excluded)

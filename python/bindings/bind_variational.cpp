@@ -2,6 +2,7 @@
 #include <pybind11/native_enum.h>
 
 #include "bindings.hpp"
+#include "pickle.hpp"
 #include "saltus/variational/cascade.hpp"
 
 namespace saltus::bindings {
@@ -109,6 +110,17 @@ void bind_enums(py::module_& m) {
       .finalize();
 }
 
+/// All but a law that is a function.
+template <auto... fields>
+auto pickle_options() {
+  return py::pickle(
+      [](const StepOptions& o) {
+        if (o.custom) throw py::type_error("StepOptions whose law is a function have no pickle");
+        return to_tuple<fields...>(o);
+      },
+      &from_tuple<StepOptions, fields...>);
+}
+
 void bind_step_options(py::module_& m) {
   using O = StepOptions;
   const O o;
@@ -129,11 +141,15 @@ void bind_step_options(py::module_& m) {
       .def_readonly("max_impulses", &O::max_impulses)
       .def_readonly("rest", &O::rest)
       .def_readonly("simultaneous", &O::simultaneous)
-      .def("__repr__", [](const O& self) {
-        const py::object h = py::float_(self.h), law = py::cast(self.law);
-        return "StepOptions(h=" + py::repr(h).cast<std::string>() +
-               ", law=" + law.attr("name").cast<std::string>() + ", ...)";
-      });
+      .def("__repr__",
+           [](const O& self) {
+             const py::object h = py::float_(self.h), law = py::cast(self.law);
+             return "StepOptions(h=" + py::repr(h).cast<std::string>() +
+                    ", law=" + law.attr("name").cast<std::string>() + ", ...)";
+           })
+      .def(
+          pickle_options<&O::h, &O::law, &O::collisions, &O::order, &O::certify, &O::max_iterations,
+                         &O::max_impacts, &O::max_impulses, &O::rest, &O::simultaneous>());
 }
 
 }  // namespace

@@ -35,6 +35,9 @@ void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
 void bind_batch(py::module_& m);
 
+/// Wrong arguments of all functions and methods are explained in words (saltus.arguments).
+void explain_errors(const py::module_& m);
+
 /// What a user gives for q or v: names and values (coordinates not named are 0), an array (n_q), or
 /// None for zeros.
 struct Coordinates {

@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, m) {
   bind_stepper(m);
   bind_rollout(m);
   bind_batch(m);
+  explain_errors(m);
 }

@@ -124,7 +124,7 @@ Returns
 Gaps
 )";
 
-constexpr auto model_pose = R"(Pose of a link in the world.
+constexpr auto model_pose = R"(Pose of a link in the world; `Model::X_WL` in C++.
 
 Parameters
 ----------
@@ -136,7 +136,12 @@ link : str or int
 Returns
 -------
 Pose
-    `.matrix()` is the homogeneous matrix.
+    Origin [m] and axes of the link's frame; `.matrix()` is the homogeneous matrix, shape (4, 4).
+
+Raises
+------
+ModelError
+    On an unknown link or coordinate, a wrong shape, or a value that is not finite.
 )";
 
 }  // namespace saltus::bindings::docs

@@ -16,6 +16,7 @@ __all__: list[str] = [
     "BodyInertia",
     "Box",
     "Capsule",
+    "ContactImpulse",
     "ContactProperties",
     "Convex",
     "Coordinate",
@@ -183,6 +184,7 @@ class BodyInertia:
         [kg m^2] about the centre of mass, axes of J.
     """
     def __add__(self, other: BodyInertia) -> BodyInertia: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         mass: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -194,6 +196,7 @@ class BodyInertia:
         ),
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def seen_from(self, X_PB: Pose) -> BodyInertia:
         """
         The same body in frame P, where this one is given in frame B.
@@ -279,8 +282,10 @@ class Sphere:
     """
     A ball about its frame's origin.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def radius(self) -> float:
         """
@@ -291,12 +296,14 @@ class Capsule:
     """
     All points within `radius` of the segment |z| <= `half_length`.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         radius: typing.SupportsFloat | typing.SupportsIndex,
         half_length: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def half_length(self) -> float:
         """
@@ -312,10 +319,12 @@ class Box:
     """
     |x| <= half[0], |y| <= half[1], |z| <= half[2].
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self, half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def half(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -326,12 +335,14 @@ class Cylinder:
     """
     Axis z, |z| <= `half_length`.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         radius: typing.SupportsFloat | typing.SupportsIndex,
         half_length: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def half_length(self) -> float:
         """
@@ -347,17 +358,21 @@ class HalfSpace:
     """
     The solid z <= 0 of its frame; only the root link may carry one.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(self) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
 
 class Ellipsoid:
     """
     (x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self, radii: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def radii(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -378,10 +393,12 @@ class Convex:
     ModelError
         Where they are too few, not finite, or thinner than 1e-6 of their length.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def edges(self) -> list[tuple[int, int]]:
         """
@@ -489,7 +506,9 @@ class ContactProperties:
     friction : float
         Coulomb's mu >= 0.
     """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def friction(self) -> float: ...
     @property
@@ -728,7 +747,11 @@ class Model:
     Made by `load_urdf` or `ModelBuilder.build`. Wherever a method takes coordinates or velocities,
     it takes an array of shape (n,) or a mapping from names to values, whose other values are 0.
     """
+    def __copy__(self) -> Model: ...
+    def __deepcopy__(self, memo: typing.Any) -> Model: ...
+    def __getstate__(self) -> tuple[tuple, bool]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def contact_properties(
         self, pair: typing.SupportsInt | typing.SupportsIndex
     ) -> ContactProperties:
@@ -817,7 +840,7 @@ class Model:
         link: str | int,
     ) -> Pose:
         """
-        Pose of a link in the world.
+        Pose of a link in the world; `Model::X_WL` in C++.
 
         Parameters
         ----------
@@ -829,7 +852,12 @@ class Model:
         Returns
         -------
         Pose
-            `.matrix()` is the homogeneous matrix.
+            Origin [m] and axes of the link's frame; `.matrix()` is the homogeneous matrix, shape (4, 4).
+
+        Raises
+        ------
+        ModelError
+            On an unknown link or coordinate, a wrong shape, or a value that is not finite.
         """
     def poses(
         self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], link: str | int
@@ -1011,6 +1039,7 @@ class Mimic:
     offset : float
         [rad | m]
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         joint: str,
@@ -1018,6 +1047,7 @@ class Mimic:
         offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def joint(self) -> str: ...
     @property
@@ -1407,6 +1437,7 @@ class StepOptions:
     simultaneous : float
         A contact that would close within this part of h joins an impact.
     """
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
@@ -1422,6 +1453,7 @@ class StepOptions:
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def certify(self) -> bool: ...
     @property
@@ -1577,6 +1609,8 @@ class Impact:
         Names of the pairs, in the order of the impulses; a pair may occur more than once.
     lambdas : numpy.ndarray, shape (impulses,)
         [N s] the impulses, `p += lambda * phi_q`.
+    tangentials : numpy.ndarray, shape (impulses, 3)
+        [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
     contacts : int
         Pairs that touched.
     law : ImpactLaw
@@ -1597,6 +1631,8 @@ class Impact:
         law: ImpactLaw,
         fallback: bool,
         certificate: str = "",
+        tangentials: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
+        | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -1614,6 +1650,31 @@ class Impact:
     def pairs(self) -> list[str]: ...
     @property
     def t(self) -> float: ...
+    @property
+    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+
+class ContactImpulse:
+    """
+    What held a pair closed over a step: its impulses, but for those of impacts.
+
+    Divided by the step `h` these are its mean forces.
+
+    Attributes
+    ----------
+    pair : str
+        Name of the pair.
+    normal : float
+        [N s] along the normal, >= 0.
+    tangential : numpy.ndarray, shape (3,)
+        [N s] friction on the pair's first shape, in the world; 0 without friction.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def normal(self) -> float: ...
+    @property
+    def pair(self) -> str: ...
+    @property
+    def tangential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
 
 class StepReport:
     """
@@ -1632,10 +1693,14 @@ class StepReport:
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
+    contacts : list of ContactImpulse
+        What held pairs closed over the step, impacts left aside.
     """
     def __repr__(self) -> str: ...
     @property
     def arcs(self) -> int: ...
+    @property
+    def contacts(self) -> list[ContactImpulse]: ...
     @property
     def impacts(self) -> list[Impact]: ...
     @property
@@ -1781,6 +1846,11 @@ class Trajectory:
     def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         [s] shape (rows,)
+        """
+    @property
+    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [N s] shape (impulses, 3)
         """
     @property
     def total(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:

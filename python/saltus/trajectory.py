@@ -24,9 +24,7 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-IMPULSE = np.dtype(
-    [("impact", "i8"), ("pair", "i4"), ("lambda", "f8"), ("tangential", "f8", (3,))]
-)
+IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8"), ("tangential", "f8", (3,))])
 
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""

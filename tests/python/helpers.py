@@ -54,6 +54,17 @@ def bouncing_ball(height: float = 1.0, radius: float = 0.1) -> saltus.ModelBuild
     )
 
 
+def puck(**contact: float) -> saltus.Model:
+    """Return a ball of 1 kg that slides in x and z and does not turn, on the floor z = -0.1."""
+    builder = saltus.ModelBuilder("puck").add_link("slide")
+    builder.add_link("puck", saltus.solid_sphere(1.0, 0.1)).add_shape("puck", saltus.Sphere(0.1))
+    prismatic = saltus.JointType.prismatic
+    builder.add_joint("x", prismatic, parent="world", child="slide", axis=(1, 0, 0))
+    builder.add_joint("z", prismatic, parent="slide", child="puck", axis=(0, 0, 1))
+    builder.add_half_space("floor", (0, 0, 1), -0.1)
+    return builder.set_default_contact(**contact).build()
+
+
 def random_state(model: saltus.Model, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
     rng = np.random.default_rng(seed)
     return rng.uniform(-1, 1, model.n_q), rng.uniform(-1, 1, model.n_q)

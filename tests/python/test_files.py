@@ -5,7 +5,7 @@ from __future__ import annotations
 import h5py
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain_on_a_body, cradle_run
+from helpers import bouncing_ball, chain_on_a_body, cradle_run, puck
 
 import saltus
 from saltus.files import ARRAYS, NUMBERS, OPTIONS
@@ -55,6 +55,37 @@ def test_options_of_the_model_are_kept(tmp_path):
     assert again.options.max_impacts == 77
     assert again.model.n_q == 8
     assert again.model.gravity[2] == -1.62
+
+
+def rubbed() -> saltus.Trajectory:
+    return saltus.simulate(
+        puck(restitution=0.5, friction=0.2), q={"z": 0.1}, v={"x": 2.0}, duration=0.5
+    )
+
+
+def test_friction_is_kept(tmp_path):
+    run = rubbed()
+    assert run.impulses["tangential"].any()
+    run.save(tmp_path / "run.h5")
+    again = saltus.load(tmp_path / "run.h5")
+    assert_same(run, again)
+    assert str(again.impact(0)) == str(run.impact(0))
+
+
+def test_files_from_before_there_was_friction_are_read(tmp_path):
+    run = rubbed()
+    run.save(tmp_path / "old.h5")
+    with h5py.File(tmp_path / "old.h5", "a") as file:
+        old = file["impulses"][()][["impact", "pair", "lambda"]]
+        del file["impulses"]
+        file["impulses"] = old
+    again = saltus.load(tmp_path / "old.h5")
+    for name in ("impact", "pair", "lambda"):
+        np.testing.assert_array_equal(again.impulses[name], run.impulses[name])
+    assert again.impulses.dtype == run.impulses.dtype
+    assert not again.impulses["tangential"].any()
+    assert not again.impulses.flags.writeable
+    assert "friction" not in str(again.impact(0))
 
 
 def test_a_model_without_collisions_is_loaded_so(tmp_path):

@@ -4,21 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from helpers import puck
 
 import saltus
 
 G = 9.81
-
-
-def puck(**contact):
-    """Return a ball that slides in x and z and does not turn, on the floor z = 0."""
-    builder = saltus.ModelBuilder("puck").add_link("slide")
-    builder.add_link("puck", saltus.solid_sphere(1.0, 0.1)).add_shape("puck", saltus.Sphere(0.1))
-    prismatic = saltus.JointType.prismatic
-    builder.add_joint("x", prismatic, parent="world", child="slide", axis=(1, 0, 0))
-    builder.add_joint("z", prismatic, parent="slide", child="puck", axis=(0, 0, 1))
-    builder.add_half_space("floor", (0, 0, 1), -0.1)
-    return builder.set_default_contact(**contact).build()
 
 
 def test_a_puck_stops_where_it_should():

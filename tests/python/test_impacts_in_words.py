@@ -46,6 +46,30 @@ def test_impacts_of_a_stepper_print_alike():
     assert str(stepper.report.impacts[0]) == str(cradle_run().impact(0))
 
 
+def test_friction_has_a_column_where_there_is_any():
+    pairs, lambdas = ["a ~ floor", "bb ~ floor"], [1.0, 0.25]
+    without = made(pairs, lambdas)
+    np.testing.assert_array_equal(without.tangentials, np.zeros((2, 3)))
+    assert str(without).splitlines()[1:] == [
+        "  #  pair        λ [N s]",
+        "  1  a ~ floor   1",
+        "  2  bb ~ floor  0.25",
+    ]
+    rubbed = made(pairs, lambdas, tangentials=[[0.125, -0.0, 0], [0, 0, 0]])
+    assert str(rubbed).splitlines() == [
+        impacts.headline(without),
+        "  #  pair        λ [N s]  friction [N s]",
+        "  1  a ~ floor   1        (0.125, 0, 0)",
+        "  2  bb ~ floor  0.25     (0, 0, 0)",
+    ]
+
+
+def test_friction_is_three_numbers_an_impulse():
+    for wrong in ([[1.0, 0, 0]], [[1.0, 0], [0, 0]]):
+        with pytest.raises(saltus.ModelError, match="there are 2 impulses, three numbers each"):
+            made(["a ~ b", "b ~ c"], [1.0, 1.0], tangentials=wrong)
+
+
 def test_one_is_singular():
     ball = saltus.simulate(bouncing_ball().build(), duration=0.5)
     assert "1 impulse on 1 contact;" in impacts.headline(ball.impact(0))

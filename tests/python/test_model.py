@@ -184,6 +184,25 @@ def test_poses_by_name_and_index():
         model.pose({}, 0.5)
 
 
+def test_the_pose_of_a_link_by_hand():
+    """Two links of 0.2 m below each other: the first turns about x, the second about y."""
+    a, b = 0.3, -0.7
+    c, s = math.cos(a), math.sin(a)
+    about_x = [[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]]
+    c, s = math.cos(b), math.sin(b)
+    about_y = [[c, 0, s, 0], [0, 1, 0, 0], [-s, 0, c, -0.2], [0, 0, 0, 1]]
+    expected = np.array(about_x) @ about_y
+    model = chain(2)
+    np.testing.assert_allclose(model.pose([a, b], "link_1").matrix(), expected, atol=1e-15)
+    tip = model.pose({"joint_0": a, "joint_1": b}, "link_1") * (0, 0, -0.2)
+    drop = 0.2 * (1 + math.cos(b))
+    by_hand = [-0.2 * math.sin(b), drop * math.sin(a), -drop * math.cos(a)]
+    np.testing.assert_allclose(tip, by_hand, atol=1e-15)
+    for wrong in ([0.1], [0.1, math.inf], {"joint_9": 0.1}):
+        with pytest.raises(saltus.ModelError):
+            model.pose(wrong, "link_1")
+
+
 def test_many_poses_and_velocities():
     model = chain(3)
     rng = np.random.default_rng(0)

@@ -16,8 +16,8 @@ void Assembly::check() {
   number_coordinates();
   add_frames();
   add_masses();
-  m_.mass.gravity = b_.gravity_;
-  m_.packed = pack(m_.tree, m_.mass, b_.solver_);
+  m_.mass.gravity = d_.gravity;
+  m_.packed = pack(m_.tree, m_.mass, d_.solver);
   check_moments();
   check_masses();
   add_shapes();
@@ -25,9 +25,10 @@ void Assembly::check() {
 
 Model Assembly::build() {
   check();
-  m_.name = b_.name_;
-  m_.warnings.insert(m_.warnings.begin(), b_.warnings_.begin(), b_.warnings_.end());
-  m_.source = b_.source_;
+  m_.name = d_.name;
+  m_.warnings.insert(m_.warnings.begin(), d_.warnings.begin(), d_.warnings.end());
+  m_.source = d_.source;
+  m_.description = std::make_shared<const ModelDescription>(d_);
   add_pairs();
   return Model(std::move(m_));
 }
@@ -44,7 +45,7 @@ Assembly::Place Assembly::add_frame(const Place& at, const Vec3& axis, Joint joi
 }
 
 Assembly::Place Assembly::add_joint_frames(const Place& parent, int spec) {
-  const JointSpec& joint = b_.joints_[spec];
+  const JointSpec& joint = d_.joints[spec];
   m_.joints.push_back({joint.name, joint.type, joint.parent, joint.child, {}, {}});
   const Mat3 A =
       has_axis(joint.type) ? rotation_z_to(joint.axis.normalized()) : Mat3(Mat3::Identity());
@@ -58,15 +59,15 @@ Assembly::Place Assembly::add_joint_frames(const Place& parent, int spec) {
 }
 
 void Assembly::add_frames() {
-  place_.resize(b_.links_.size());
-  group_.resize(b_.links_.size());
+  place_.resize(d_.links.size());
+  group_.resize(d_.links.size());
   for (const int j : order_) {
-    const int parent = link_.at(b_.joints_[j].parent), child = link_.at(b_.joints_[j].child);
+    const int parent = link_.at(d_.joints[j].parent), child = link_.at(d_.joints[j].child);
     place_[child] = add_joint_frames(place_[parent], j);
-    group_[child] = b_.joints_[j].type == JointType::fixed ? group_[parent] : child;
+    group_[child] = d_.joints[j].type == JointType::fixed ? group_[parent] : child;
   }
-  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
-    const LinkSpec& link = b_.links_[i];
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+    const LinkSpec& link = d_.links[i];
     m_.links.push_back({link.name, place_[i].joint, place_[i].X_JF, link.inertia.mass});
   }
   m_.tree.coordinates = static_cast<int>(m_.coordinates.size());

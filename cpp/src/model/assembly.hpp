@@ -14,7 +14,7 @@ inline std::string quoted(const std::string& name) { return "\"" + name + "\""; 
 
 class Assembly {
  public:
-  explicit Assembly(const ModelBuilder& builder) : b_(builder) {}
+  explicit Assembly(const ModelDescription& description) : d_(description) {}
 
   void check();
   Model build();
@@ -64,7 +64,7 @@ class Assembly {
   void add_shapes();
   void add_pairs();
 
-  const ModelBuilder& b_;
+  const ModelDescription& d_;
   ModelData m_;
   std::map<std::string, int> link_;      // name -> index
   std::map<std::string, int> joint_;     // name -> index of spec

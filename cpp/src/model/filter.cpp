@@ -6,11 +6,11 @@
 namespace saltus {
 
 void Assembly::add_filter() {
-  const ModelBuilder::Filter& filter = b_.filter_;
-  const auto add_links = [&](const std::vector<ModelBuilder::Exclusion>& named, Pairs& pairs) {
-    for (const ModelBuilder::Exclusion& exclusion : named) {
-      const int a = link_index(exclusion.a, "an exclusion names", "link", exclusion.a);
-      const int b = link_index(exclusion.b, "an exclusion names", "link", exclusion.b);
+  const FilterSpec& filter = d_.filter;
+  const auto add_links = [&](const FilterSpec::Names& named, Pairs& pairs) {
+    for (const auto& [first, second] : named) {
+      const int a = link_index(first, "an exclusion names", "link", first);
+      const int b = link_index(second, "an exclusion names", "link", second);
       pairs.insert(std::minmax(a, b));
     }
   };
@@ -21,22 +21,22 @@ void Assembly::add_filter() {
   const auto find = [&](const std::string& group) {
     return static_cast<int>(std::find(groups.begin(), groups.end(), group) - groups.begin());
   };
-  collision_group_.assign(b_.links_.size(), -1);
+  collision_group_.assign(d_.links.size(), -1);
   for (const auto& [link, group] : filter.group_of) {
     const int index = find(group);
     if (index == static_cast<int>(groups.size())) groups.push_back(group);
     const std::string user = "group " + quoted(group) + " names";
     collision_group_[link_index(link, user, "group", group)] = index;
   }
-  for (const ModelBuilder::Exclusion& exclusion : filter.groups) {
-    for (const std::string& group : {exclusion.a, exclusion.b}) {
+  for (const auto& [first, second] : filter.groups) {
+    for (const std::string& group : {first, second}) {
       if (find(group) < static_cast<int>(groups.size())) continue;
       throw ModelError("an exclusion names group " + quoted(group) +
                            ", which no link is in; groups are " +
                            (groups.empty() ? "none" : list_names(groups)),
                        "group", group);
     }
-    const int a = find(exclusion.a), b = find(exclusion.b);
+    const int a = find(first), b = find(second);
     excluded_groups_.insert(std::minmax(a, b));
   }
 }
@@ -50,7 +50,7 @@ std::vector<std::pair<int, int>> Assembly::adjacent_links() const {
   for (const auto& [first, links] : welded) {
     const int joint = parent_joint_[first];
     if (joint < 0) continue;
-    const JointSpec& spec = b_.joints_[joint];
+    const JointSpec& spec = d_.joints[joint];
     if (spec.type == JointType::floating || spec.type == JointType::planar) continue;
     for (const int parent : welded.at(group_[link_.at(spec.parent)])) {
       for (const int child : links) out.emplace_back(parent, child);

@@ -81,23 +81,23 @@ std::vector<FeltInertia> felt_inertias(const Tree& tree, const PackedTree& t) {
 
 void Assembly::add_masses() {
   m_.mass.body.resize(m_.tree.parent.size());
-  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
     if (place_[i].joint < 0) continue;  // fixed to the world: cannot move
     BodyInertia& body = m_.mass.body[place_[i].joint];
-    body = weld(body, transform(place_[i].X_JF, b_.links_[i].inertia));
+    body = weld(body, transform(place_[i].X_JF, d_.links[i].inertia));
   }
 }
 
 // Bodies with possible moments have possible ones when welded, so some link is to blame where the
 // sum has none.
 void Assembly::check_moments() {
-  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
-    const std::string wrong = impossible_moments(b_.links_[i].inertia);
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+    const std::string wrong = impossible_moments(d_.links[i].inertia);
     if (wrong.empty()) continue;
-    const std::string text = "link " + quoted(b_.links_[i].name) + " has " + wrong;
+    const std::string text = "link " + quoted(d_.links[i].name) + " has " + wrong;
     const int j = place_[i].joint;
     if (j >= 0 && !impossible_moments(m_.mass.body[j]).empty()) {
-      throw ModelError(text, "link", b_.links_[i].name);
+      throw ModelError(text, "link", d_.links[i].name);
     }
     m_.warnings.push_back(text + (j < 0 ? "; it is fixed to the world and they are not used"
                                         : "; those of all that it is fixed to are possible"));
@@ -112,7 +112,7 @@ void Assembly::check_masses() const {
   for (int c = m_.tree.coordinates - 1; c >= 0; --c) {
     // 1e-12, 1e-14: rounding of the sweep and of one sum, with a few digits to spare
     if (felt[c].free > 1e-12 * felt[c].locked && felt[c].locked > 1e-14 * felt[c].scale) continue;
-    const JointSpec& joint = b_.joints_[joint_.at(m_.coordinates[c].joint)];
+    const JointSpec& joint = d_.joints[joint_.at(m_.coordinates[c].joint)];
     const bool gives_way = felt[c].locked > 1e-14 * felt[c].scale;
     throw ModelError("joint " + quoted(joint.name) + " moves no mass" +
                          (gives_way ? " of its own: a joint below it undoes its motion, as one on "

@@ -26,13 +26,13 @@ ModelBuilder& ModelBuilder::set_material(const std::string& link, const std::str
   if (material.empty()) {
     throw ModelError("link " + quoted(link) + " is given a material without a name", "link", link);
   }
-  materials_.of_link[link] = material;
+  d_.materials.of_link[link] = material;
   return *this;
 }
 
 ModelBuilder& ModelBuilder::set_default_contact(const ContactProperties& properties) {
   check_properties(properties, "materials that nothing else is said of");
-  materials_.standard = properties;
+  d_.materials.standard = properties;
   return *this;
 }
 
@@ -40,18 +40,18 @@ ModelBuilder& ModelBuilder::set_contact(const std::string& material_a,
                                         const std::string& material_b,
                                         const ContactProperties& properties) {
   check_properties(properties, quoted(material_a) + " and " + quoted(material_b));
-  materials_.contact[std::minmax(material_a, material_b)] = properties;
+  d_.materials.contact[std::minmax(material_a, material_b)] = properties;
   return *this;
 }
 
 void Assembly::add_materials() {
-  const ModelBuilder::Materials& given = b_.materials_;
+  const MaterialSpec& given = d_.materials;
   MaterialTable& table = m_.materials;
   const auto find = [&](const std::string& name) {
     const auto at = std::find(table.names.begin(), table.names.end(), name);
     return static_cast<std::size_t>(at - table.names.begin());
   };
-  std::vector<int> of_link(b_.links_.size(), 0);
+  std::vector<int> of_link(d_.links.size(), 0);
   for (const auto& [link, material] : given.of_link) {
     const std::size_t index = find(material);
     if (index == table.names.size()) table.names.push_back(material);

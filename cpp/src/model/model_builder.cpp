@@ -91,31 +91,32 @@ BodyInertia solid_cylinder(double mass, double radius, double half_length) {
   return body;
 }
 
-ModelBuilder::ModelBuilder(std::string name, std::string root)
-    : name_(std::move(name)), root_(std::move(root)) {
-  links_.push_back({root_, {}});
+ModelBuilder::ModelBuilder(std::string name, std::string root) {
+  d_.name = std::move(name);
+  d_.root = std::move(root);
+  d_.links.push_back({d_.root, {}});
 }
 
 ModelBuilder& ModelBuilder::set_solver(TreeSolver solver) {
-  solver_ = solver;
+  d_.solver = solver;
   return *this;
 }
 
 ModelBuilder& ModelBuilder::set_gravity(const Vec3& gravity) {
   if (!gravity.allFinite()) throw ModelError("gravity " + show(gravity) + " is not finite");
-  gravity_ = gravity;
+  d_.gravity = gravity;
   return *this;
 }
 
 ModelBuilder& ModelBuilder::set_source(std::string text) {
-  source_ = std::move(text);
+  d_.source = std::move(text);
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_link(const LinkSpec& link) {
-  check_new_name(links_, "link", link.name);
+  check_new_name(d_.links, "link", link.name);
   check_inertia(link.inertia, link.name);
-  links_.push_back(link);
+  d_.links.push_back(link);
   return *this;
 }
 
@@ -123,7 +124,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
   const auto fail = [&](const std::string& what) {
     throw ModelError("joint " + quoted(joint.name) + " " + what, "joint", joint.name);
   };
-  check_new_name(joints_, "joint", joint.name);
+  check_new_name(d_.joints, "joint", joint.name);
   JointSpec checked = joint;
   checked.X_PJ = checked_pose(joint.X_PJ, "joint", joint.name);
   if (!joint.axis.allFinite()) fail("has an axis that is not finite: " + show(joint.axis));
@@ -142,19 +143,19 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
       !(std::isfinite(joint.mimic->multiplier) && std::isfinite(joint.mimic->offset))) {
     fail("has a mimic multiplier or offset that is not finite");
   }
-  joints_.push_back(std::move(checked));
+  d_.joints.push_back(std::move(checked));
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shape,
                                       const Pose& X_LG) {
   check_shape(shape, link);
-  if (std::holds_alternative<HalfSpace>(shape) && link != root_) {
+  if (std::holds_alternative<HalfSpace>(shape) && link != d_.root) {
     throw ModelError("link " + quoted(link) + " carries a half-space, which only the root link " +
-                         quoted(root_) + " may",
+                         quoted(d_.root) + " may",
                      "link", link);
   }
-  shapes_.push_back({link, "", shape, checked_pose(X_LG, "link", link)});
+  d_.shapes.push_back({link, "", shape, checked_pose(X_LG, "link", link)});
   return *this;
 }
 
@@ -166,24 +167,25 @@ ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& 
          << offset << "; both are finite, and the normal is not zero";
     throw ModelError(text.str(), "half_space", name);
   }
-  for (const ShapeSpec& shape : shapes_) {
+  for (const ShapeSpec& shape : d_.shapes) {
     if (shape.name == name) {
       throw ModelError("two half-spaces are named " + quoted(name), "half_space", name);
     }
   }
   const Vec3 n = normal.normalized();
-  shapes_.push_back({root_, name, HalfSpace{}, {rotation_z_to(n), n * (offset / normal.norm())}});
+  d_.shapes.push_back(
+      {d_.root, name, HalfSpace{}, {rotation_z_to(n), n * (offset / normal.norm())}});
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_exclusion(const std::string& link_a, const std::string& link_b) {
-  filter_.links.push_back({link_a, link_b});
+  d_.filter.links.push_back({link_a, link_b});
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_body_exclusion(const std::string& link_a,
                                                const std::string& link_b) {
-  filter_.bodies.push_back({link_a, link_b});
+  d_.filter.bodies.push_back({link_a, link_b});
   return *this;
 }
 
@@ -191,28 +193,28 @@ ModelBuilder& ModelBuilder::set_group(const std::string& link, const std::string
   if (group.empty()) {
     throw ModelError("link " + quoted(link) + " is put into a group without a name", "link", link);
   }
-  filter_.group_of[link] = group;
+  d_.filter.group_of[link] = group;
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_group_exclusion(const std::string& group_a,
                                                 const std::string& group_b) {
-  filter_.groups.push_back({group_a, group_b});
+  d_.filter.groups.push_back({group_a, group_b});
   return *this;
 }
 
 ModelBuilder& ModelBuilder::set_adjacent_links(AdjacentLinks adjacent) {
-  filter_.adjacent = adjacent;
+  d_.filter.adjacent = adjacent;
   return *this;
 }
 
 ModelBuilder& ModelBuilder::add_warning(std::string text) {
-  warnings_.push_back(std::move(text));
+  d_.warnings.push_back(std::move(text));
   return *this;
 }
 
-void ModelBuilder::check() const { Assembly(*this).check(); }
+void ModelBuilder::check() const { Assembly(d_).check(); }
 
-Model ModelBuilder::build() const { return Assembly(*this).build(); }
+Model ModelBuilder::build() const { return Assembly(d_).build(); }
 
 }  // namespace saltus

@@ -8,7 +8,7 @@ namespace saltus {
 
 void Assembly::add_shapes() {
   std::map<std::string, int> count;
-  for (const ModelBuilder::ShapeSpec& spec : b_.shapes_) {
+  for (const ShapeSpec& spec : d_.shapes) {
     const int link =
         link_index(spec.link, "a " + shape_name(spec.shape) + " is put on", "link", spec.link);
     const Place& place = place_[link];
@@ -41,7 +41,7 @@ void Assembly::add_pairs() {
   rules.excluded_groups.assign(excluded_groups_.begin(), excluded_groups_.end());
   for (const auto& [a, b] : excluded_) exclude(a, b, true);
   for (const auto& [a, b] : excluded_bodies_) exclude(a, b, false);
-  if (b_.filter_.adjacent == AdjacentLinks::excluded) {
+  if (d_.filter.adjacent == AdjacentLinks::excluded) {
     for (const auto& [a, b] : adjacent_links()) exclude(a, b, false);
   }
   m_.pairs = PairTable(m_.shapes, rules);

@@ -34,27 +34,27 @@ int Assembly::link_index(const std::string& name, const std::string& user,
   const auto found = link_.find(name);
   if (found != link_.end()) return found->second;
   std::vector<std::string> names;
-  for (const LinkSpec& link : b_.links_) names.push_back(link.name);
+  for (const LinkSpec& link : d_.links) names.push_back(link.name);
   throw ModelError(
       user + " link " + quoted(name) + ", which does not exist; links are " + list_names(names),
       element, culprit);
 }
 
 void Assembly::find_links() {
-  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
-    link_[b_.links_[i].name] = static_cast<int>(i);
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+    link_[d_.links[i].name] = static_cast<int>(i);
   }
-  parent_joint_.assign(b_.links_.size(), -1);
-  below_.resize(b_.links_.size());
-  for (int j = 0; j < static_cast<int>(b_.joints_.size()); ++j) {
-    const JointSpec& joint = b_.joints_[j];
+  parent_joint_.assign(d_.links.size(), -1);
+  below_.resize(d_.links.size());
+  for (int j = 0; j < static_cast<int>(d_.joints.size()); ++j) {
+    const JointSpec& joint = d_.joints[j];
     joint_[joint.name] = j;
     const std::string names = "joint " + quoted(joint.name) + " names ";
     const int parent = link_index(joint.parent, names + "parent", "joint", joint.name);
     const int child = link_index(joint.child, names + "child", "joint", joint.name);
     if (parent_joint_[child] >= 0) {
       throw ModelError("link " + quoted(joint.child) + " is the child of two joints, " +
-                           quoted(b_.joints_[parent_joint_[child]].name) + " and " +
+                           quoted(d_.joints[parent_joint_[child]].name) + " and " +
                            quoted(joint.name),
                        "joint", joint.name);
     }
@@ -65,53 +65,53 @@ void Assembly::find_links() {
 
 void Assembly::order_joints() {
   if (parent_joint_[0] >= 0) {
-    throw ModelError("the root link " + quoted(b_.root_) + " is the child of joint " +
-                         quoted(b_.joints_[parent_joint_[0]].name),
-                     "link", b_.root_);
+    throw ModelError("the root link " + quoted(d_.root) + " is the child of joint " +
+                         quoted(d_.joints[parent_joint_[0]].name),
+                     "link", d_.root);
   }
-  std::vector<char> reached(b_.links_.size(), 0);
+  std::vector<char> reached(d_.links.size(), 0);
   reached[0] = 1;
   std::vector<int> joints(below_[0].rbegin(), below_[0].rend());
   while (!joints.empty()) {
     const int j = joints.back();
     joints.pop_back();
     order_.push_back(j);
-    const int child = link_.at(b_.joints_[j].child);
+    const int child = link_.at(d_.joints[j].child);
     reached[child] = 1;
     joints.insert(joints.end(), below_[child].rbegin(), below_[child].rend());
   }
   std::vector<std::string> cycle;
-  for (std::size_t i = 0; i < b_.links_.size(); ++i) {
-    const std::string& name = b_.links_[i].name;
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+    const std::string& name = d_.links[i].name;
     if (reached[i]) continue;
     if (parent_joint_[i] < 0) {
       throw ModelError("two roots: link " + quoted(name) +
-                           " has no joint above it, and neither has " + quoted(b_.root_),
+                           " has no joint above it, and neither has " + quoted(d_.root),
                        "link", name);
     }
     cycle.push_back(name);
   }
   if (!cycle.empty()) {
     throw ModelError("a cycle of joints: links " + list_names(cycle) +
-                         " hang on each other, not on the root " + quoted(b_.root_),
+                         " hang on each other, not on the root " + quoted(d_.root),
                      "link", cycle.front());
   }
 }
 
 void Assembly::resolve_mimic() {
   std::vector<std::string> names;
-  for (const JointSpec& joint : b_.joints_) names.push_back(joint.name);
-  for (int j = 0; j < static_cast<int>(b_.joints_.size()); ++j) {
+  for (const JointSpec& joint : d_.joints) names.push_back(joint.name);
+  for (int j = 0; j < static_cast<int>(d_.joints.size()); ++j) {
     const auto fail = [&](const std::string& what) {
-      const std::string& name = b_.joints_[j].name;
+      const std::string& name = d_.joints[j].name;
       throw ModelError("joint " + quoted(name) + " " + what, "joint", name);
     };
     Drive drive;
     int at = j;
-    for (std::size_t hops = 0; b_.joints_[at].mimic; ++hops) {
-      const Mimic& mimic = *b_.joints_[at].mimic;
-      if (hops > b_.joints_.size()) fail("mimics itself through a cycle");
-      if (composition(b_.joints_[at].type).size() != 1) {
+    for (std::size_t hops = 0; d_.joints[at].mimic; ++hops) {
+      const Mimic& mimic = *d_.joints[at].mimic;
+      if (hops > d_.joints.size()) fail("mimics itself through a cycle");
+      if (composition(d_.joints[at].type).size() != 1) {
         fail("mimics another, which only joints of one coordinate can");
       }
       drive.offset += drive.multiplier * mimic.offset;
@@ -123,8 +123,8 @@ void Assembly::resolve_mimic() {
       }
       at = target->second;
     }
-    if (at != j && composition(b_.joints_[at].type).size() != 1) {
-      fail("mimics joint " + quoted(b_.joints_[at].name) + ", which has not one coordinate");
+    if (at != j && composition(d_.joints[at].type).size() != 1) {
+      fail("mimics joint " + quoted(d_.joints[at].name) + ", which has not one coordinate");
     }
     drive_.push_back(drive);
     base_.push_back(at);
@@ -132,11 +132,11 @@ void Assembly::resolve_mimic() {
 }
 
 void Assembly::number_coordinates() {
-  first_coordinate_.assign(b_.joints_.size(), -1);
+  first_coordinate_.assign(d_.joints.size(), -1);
   std::set<std::string> names;
   for (const int j : order_) {
     if (base_[j] != j) continue;
-    const JointSpec& joint = b_.joints_[j];
+    const JointSpec& joint = d_.joints[j];
     first_coordinate_[j] = static_cast<int>(m_.coordinates.size());
     for (const Axis& axis : composition(joint.type)) {
       Coordinate c{joint.name + axis.suffix,

@@ -58,6 +58,24 @@ TEST(Model, ABuilderCanGoOn) {
   EXPECT_EQ(three.n_q(), 3);
 }
 
+TEST(Model, IsBuiltAgainOfItsDescription) {
+  const Model model = test::two_balls()
+                          .set_gravity({1, 2, 3})
+                          .set_solver(TreeSolver::lu)
+                          .set_default_contact({0.5, 0.25})
+                          .add_warning("a warning")
+                          .build();
+  const Model again = ModelBuilder(*model->description).build();
+  const VecX q = VecX::LinSpaced(model.n_q(), 0.1, 0.9);
+  const VecX v = VecX::LinSpaced(model.n_q(), -1, 1);
+  EXPECT_EQ(again.state(q, v), model.state(q, v));
+  EXPECT_EQ(again.gaps(q).phi, model.gaps(q).phi);
+  EXPECT_EQ(again.pair_name(0), model.pair_name(0));
+  EXPECT_EQ(again.contact_properties(0), model.contact_properties(0));
+  EXPECT_EQ(again->warnings, model->warnings);
+  EXPECT_EQ(model.without_collisions()->description, model->description);
+}
+
 TEST(State, FromNamesAndFromArrays) {
   const Model model = arm().build();
   const State a = model.state({{"elbow", 0.3}}, {{"shoulder", 2.0}}, 1.5);

@@ -61,6 +61,8 @@ struct TreeSolution {
   int depth;          ///< joints on the longest path from the root
 };
 
+struct ModelDescription;
+
 struct ModelData {
   std::string name;
   Tree tree;
@@ -74,6 +76,7 @@ struct ModelData {
   MaterialTable materials;
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
+  std::shared_ptr<const ModelDescription> description;  ///< what build() made it of
 };
 
 /// Gaps of all pairs at one configuration, dense, for people.

@@ -1,46 +1,12 @@
 // Describe a model link by link, then freeze it with build(). The only class with add_ verbs.
 #pragma once
 
-#include <limits>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "saltus/model/model.hpp"
+#include "saltus/model/description.hpp"
 
 namespace saltus {
-
-struct LinkSpec {
-  std::string name;
-  BodyInertia inertia = {};  ///< in the link's frame; the root link's is not used (it cannot move)
-};
-
-/// This joint's displacement is `multiplier * (displacement of joint) + offset`.
-struct Mimic {
-  std::string joint;
-  double multiplier = 1;
-  double offset = 0;
-};
-
-struct JointSpec {
-  std::string name;
-  JointType type = JointType::revolute;
-  std::string parent, child;        ///< links
-  Pose X_PJ = {};                   ///< joint (= child link) frame in the parent link's frame
-  Vec3 axis = Vec3::UnitX();        ///< in the joint's frame, any length but 0
-  double pitch = 0;                 ///< [m/rad] helical only
-  std::optional<Mimic> mimic = {};  ///< one-coordinate joints only
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  double velocity = std::numeric_limits<double>::infinity();
-  double effort = std::numeric_limits<double>::infinity();
-  double damping = 0, friction = 0;
-};
-
-/// Are gaps watched between links on both sides of one joint? They overlap at it by design; a
-/// joint that lets them fly (floating, planar) is none of these.
-enum class AdjacentLinks { excluded, watched };
 
 /// Local mistakes throw at once, in add_ and set_; those that need the whole (unknown parents,
 /// cycles, two roots, joints that move no mass) in check() and build(). All are ModelError and
@@ -49,6 +15,8 @@ class SALTUS_EXPORT ModelBuilder {
  public:
   /// `root` is the link that is fixed to the world; its frame is the world frame.
   explicit ModelBuilder(std::string name = "model", std::string root = "world");
+  /// Goes on from what another builder gathered; its local checks are not made again.
+  explicit ModelBuilder(ModelDescription description) : d_(std::move(description)) {}
 
   ModelBuilder& set_gravity(const Vec3& gravity);
   ModelBuilder& set_source(std::string text);
@@ -84,38 +52,11 @@ class SALTUS_EXPORT ModelBuilder {
   void check() const;  ///< the checks of build() alone
   Model build() const;
 
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& warnings() const { return d_.warnings; }
+  const ModelDescription& description() const { return d_; }
 
  private:
-  struct ShapeSpec {
-    std::string link, name;
-    Shape shape;
-    Pose X_LG;
-  };
-  struct Exclusion {
-    std::string a, b;
-  };
-  struct Filter {
-    std::vector<Exclusion> links, bodies, groups;
-    std::map<std::string, std::string> group_of;  // link -> group
-    AdjacentLinks adjacent = AdjacentLinks::excluded;
-  };
-  struct Materials {
-    std::map<std::string, std::string> of_link;
-    std::map<std::pair<std::string, std::string>, ContactProperties> contact;
-    ContactProperties standard;
-  };
-  std::string name_, root_, source_;
-  Vec3 gravity_ = Vec3(0, 0, -9.81);
-  TreeSolver solver_ = TreeSolver::automatic;
-  std::vector<LinkSpec> links_;
-  std::vector<JointSpec> joints_;
-  std::vector<ShapeSpec> shapes_;
-  Filter filter_;
-  Materials materials_;
-  std::vector<std::string> warnings_;
-
-  friend class Assembly;  // build()'s worker, model/assembly.cpp
+  ModelDescription d_;
 };
 
 /// @throws ModelError where no link can have this mass or inertia: negative mass, not symmetric,

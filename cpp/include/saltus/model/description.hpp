@@ -1,0 +1,82 @@
+// What a model is built of, as plain data: what ModelBuilder gathers and build() reads.
+//
+// A model keeps it, so that it can be sent elsewhere and built again, in the same bits.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "saltus/model/model.hpp"
+
+namespace saltus {
+
+struct LinkSpec {
+  std::string name;
+  BodyInertia inertia = {};  ///< in the link's frame; the root link's is not used (it cannot move)
+};
+
+/// This joint's displacement is `multiplier * (displacement of joint) + offset`.
+struct Mimic {
+  std::string joint;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+struct JointSpec {
+  std::string name;
+  JointType type = JointType::revolute;
+  std::string parent, child;        ///< links
+  Pose X_PJ = {};                   ///< joint (= child link) frame in the parent link's frame
+  Vec3 axis = Vec3::UnitX();        ///< in the joint's frame, any length but 0
+  double pitch = 0;                 ///< [m/rad] helical only
+  std::optional<Mimic> mimic = {};  ///< one-coordinate joints only
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double velocity = std::numeric_limits<double>::infinity();
+  double effort = std::numeric_limits<double>::infinity();
+  double damping = 0, friction = 0;
+};
+
+struct ShapeSpec {
+  std::string link;
+  std::string name;  ///< of a half-space; "" for shapes that are named after their link
+  Shape shape;
+  Pose X_LG;
+};
+
+/// Are gaps watched between links on both sides of one joint? They overlap at it by design; a
+/// joint that lets them fly (floating, planar) is none of these.
+enum class AdjacentLinks { excluded, watched };
+
+/// Which pairs are not watched, each by two names.
+struct FilterSpec {
+  using Names = std::vector<std::pair<std::string, std::string>>;
+  Names links, bodies, groups;                  ///< of links; the same, half-spaces left aside
+  std::map<std::string, std::string> group_of;  ///< link -> group
+  AdjacentLinks adjacent = AdjacentLinks::excluded;
+};
+
+struct MaterialSpec {
+  std::map<std::string, std::string> of_link;
+  std::map<std::pair<std::string, std::string>, ContactProperties> contact;  ///< the lesser first
+  ContactProperties standard;  ///< of all pairs that `contact` has not
+};
+
+struct ModelDescription {
+  std::string name, root;
+  std::string source;  ///< text it was read from; "" if built in code
+  Vec3 gravity = Vec3(0, 0, -9.81);
+  TreeSolver solver = TreeSolver::automatic;
+  std::vector<LinkSpec> links;  ///< the root first
+  std::vector<JointSpec> joints;
+  std::vector<ShapeSpec> shapes;
+  FilterSpec filter;
+  MaterialSpec materials;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace saltus

@@ -1,0 +1,81 @@
+// Where a call's arguments fit no signature, words of ours in place of pybind11's list of
+// signatures.
+//
+// Every bound function is a Python function whose method is pybind11's dispatcher. Another method
+// stands before it, which asks saltus.arguments for the words where the dispatcher fails; a call
+// that succeeds takes one jump more, some 3 ns.
+#include "bindings.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+using Method = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
+
+Method dispatcher = nullptr;
+
+PyMethodDef* method_of(const py::handle& function) {
+  return reinterpret_cast<PyCFunctionObject*>(function.ptr())->m_ml;
+}
+
+Method to_method(PyCFunction pointer) {
+  return reinterpret_cast<Method>(reinterpret_cast<void (*)()>(pointer));
+}
+
+/// In words what is wrong, None where saltus.arguments does not know either.
+py::object explain(const py::error_already_set& error, PyObject* const* arguments, Py_ssize_t count,
+                   const py::handle& names) {
+  py::list positional;
+  for (Py_ssize_t i = 0; i < count; ++i) positional.append(py::handle(arguments[i]));
+  py::dict keywords;
+  if (names) {
+    for (const py::handle name : names) keywords[name] = py::handle(arguments[count++]);
+  }
+  return py::module_::import("saltus.arguments")
+      .attr("explain")(py::str(error.value()), positional, keywords);
+}
+
+PyObject* dispatch(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* names) {
+  PyObject* const result = dispatcher(self, arguments, count, names);
+  if (result != nullptr || PyErr_ExceptionMatches(PyExc_TypeError) == 0) return result;
+  py::error_already_set error;
+  // An error with a trace is of a Python function that was called from inside.
+  if (!error.trace()) {
+    try {
+      const py::object words = explain(error, arguments, count, names);
+      if (!words.is_none()) {
+        PyErr_SetObject(PyExc_TypeError, words.ptr());
+        return nullptr;
+      }
+    } catch (py::error_already_set& another) {
+      another.discard_as_unraisable("saltus.arguments");
+    }
+  }
+  error.restore();
+  return nullptr;
+}
+
+void explain_errors_of(const py::handle& member) {
+  const bool in_class = PyInstanceMethod_Check(member.ptr());
+  const py::handle function = in_class ? PyInstanceMethod_Function(member.ptr()) : member.ptr();
+  if (!PyCFunction_CheckExact(function.ptr())) return;
+  PyMethodDef* const method = method_of(function);
+  if (to_method(method->ml_meth) != dispatcher) return;
+  method->ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&dispatch));
+}
+
+}  // namespace
+
+void explain_errors(const py::module_& m) {
+  const py::cpp_function any([] {});
+  const PyMethodDef* const method = method_of(any);
+  // pybind11's own way to be called, which another version may change: its words are used then.
+  if (method->ml_flags != (METH_FASTCALL | METH_KEYWORDS)) return;
+  dispatcher = to_method(method->ml_meth);
+  for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {
+    explain_errors_of(member);
+    if (!PyType_Check(member.ptr())) continue;
+    for (const py::handle item : member.attr("__dict__").attr("values")()) explain_errors_of(item);
+  }
+}
+
+}  // namespace saltus::bindings

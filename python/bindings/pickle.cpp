@@ -1,0 +1,78 @@
+#include "pickle.hpp"
+
+namespace saltus::bindings {
+namespace {
+
+/// A list of tuples of these fields, and back.
+template <class T, auto... fields>
+struct Listed {
+  static py::list from(const std::vector<T>& items) {
+    py::list list;
+    for (const T& item : items) list.append(to_tuple<fields...>(item));
+    return list;
+  }
+  static std::vector<T> to(const py::handle& list) {
+    std::vector<T> items;
+    for (const py::handle item : list) {
+      items.push_back(from_tuple<T, fields...>(item.cast<py::tuple>()));
+    }
+    return items;
+  }
+};
+
+using J = JointSpec;
+using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia>;
+using Joints =
+    Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
+           &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction>;
+using Shapes =
+    Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape, &ShapeSpec::X_LG>;
+
+using Faces = Listed<Hull::Face, &Hull::Face::normal, &Hull::Face::offset, &Hull::Face::corners>;
+using Edges =
+    Listed<Hull::Edge, &Hull::Edge::from, &Hull::Edge::to, &Hull::Edge::left, &Hull::Edge::right>;
+
+}  // namespace
+
+py::tuple to_tuple(const Hull& hull) {
+  return py::make_tuple(hull.vertices, Faces::from(hull.faces), Edges::from(hull.edges),
+                        hull.first_neighbour, hull.neighbour, hull.center);
+}
+
+Hull to_hull(const py::tuple& t) {
+  return {t[0].cast<std::vector<Vec3>>(),
+          Faces::to(t[1]),
+          Edges::to(t[2]),
+          t[3].cast<std::vector<int>>(),
+          t[4].cast<std::vector<int>>(),
+          t[5].cast<Vec3>()};
+}
+
+py::tuple to_tuple(const ModelDescription& d) {
+  const FilterSpec& f = d.filter;
+  const MaterialSpec& m = d.materials;
+  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
+                        Joints::from(d.joints), Shapes::from(d.shapes),
+                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings);
+}
+
+ModelDescription to_description(const py::tuple& t) {
+  using F = FilterSpec;
+  using M = MaterialSpec;
+  ModelDescription d;
+  d.name = t[0].cast<std::string>();
+  d.root = t[1].cast<std::string>();
+  d.source = t[2].cast<std::string>();
+  d.gravity = t[3].cast<Vec3>();
+  d.solver = t[4].cast<TreeSolver>();
+  d.links = Links::to(t[5]);
+  d.joints = Joints::to(t[6]);
+  d.shapes = Shapes::to(t[7]);
+  d.filter = from_tuple<F, &F::links, &F::bodies, &F::groups, &F::group_of, &F::adjacent>(t[8]);
+  d.materials = from_tuple<M, &M::of_link, &M::contact, &M::standard>(t[9]);
+  d.warnings = t[10].cast<std::vector<std::string>>();
+  return d;
+}
+
+}  // namespace saltus::bindings

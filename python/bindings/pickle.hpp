@@ -1,0 +1,38 @@
+// Values as tuples of their fields, for pickles: to other processes, not for keeps.
+#pragma once
+
+#include <type_traits>
+
+#include "bindings.hpp"
+#include "saltus/model/description.hpp"
+
+namespace saltus::bindings {
+
+template <auto... fields, class T>
+py::tuple to_tuple(const T& x) {
+  return py::make_tuple(x.*fields...);
+}
+
+template <class T, auto... fields>
+T from_tuple(const py::tuple& tuple) {
+  T x{};
+  std::size_t i = 0;
+  ((x.*fields = tuple[i++].template cast<std::decay_t<decltype(x.*fields)>>()), ...);
+  return x;
+}
+
+/// For py::class_<T>::def.
+template <class T, auto... fields>
+auto pickle_fields() {
+  return py::pickle([](const T& x) -> py::tuple { return to_tuple<fields...>(x); },
+                    &from_tuple<T, fields...>);
+}
+
+/// Field by field: a hull of its vertices alone could list its faces in another order.
+py::tuple to_tuple(const Hull& hull);
+Hull to_hull(const py::tuple& tuple);
+
+py::tuple to_tuple(const ModelDescription& description);
+ModelDescription to_description(const py::tuple& tuple);
+
+}  // namespace saltus::bindings
