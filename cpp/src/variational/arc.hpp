@@ -42,8 +42,8 @@ struct ArcConstraint {
   const Pair* pair = nullptr;  ///< likewise
   bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
   Pair face;
-  double target = 0;            ///< [m] or [J]
-  double lambda = 0;            ///< [N s] guess in, solution out
+  double target = 0;  ///< [m] or [J]
+  double lambda = 0;  ///< [N s] guess in, solution out
   VecX n;             ///< (n_q) direction of the force
   VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
   // where there is friction

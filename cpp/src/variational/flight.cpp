@@ -68,8 +68,8 @@ bool is_hop(const Node& node, int pair) {
 
 /// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
 /// from the velocity at the node.
-bool solve_first_arc(const ModelData& model, const StepOptions& options, double left,
-                     Node& node, Flight& f) {
+bool solve_first_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
+                     Flight& f) {
   if (f.history.extrapolate(node.t + left / 2, f.arc.v)) {
     if (solve_flight_arc(model, options, left, node, f)) return true;
     forget_impulses(f);
@@ -109,12 +109,11 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   if (node.friction.any) make_room(model, node, f);
   if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any) recall_impulses(left, node, f);
-  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived
-                                                        : no_arc(node);
+  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived : no_arc(node);
 }
 
-/// Complementarity of what is held, which friction has in its arcs; `settled` is false where the arc
-/// has to be solved again.
+/// Complementarity of what is held, which friction has in its arcs; `settled` is false where the
+/// arc has to be solved again.
 FlightOutcome update_contacts(const ModelData& model, Node& node, Flight& f, bool& settled) {
   if (needs_friction_arc(node)) {
     settled = !level_rods(model, node, f);
@@ -147,8 +146,8 @@ bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight&
   return false;
 }
 
-/// Ends the bouncing of a pair. With friction it is the law of the arc that takes the last hop away,
-/// together with all that rests: in a pile one after the other would make each other hop.
+/// Ends the bouncing of a pair. With friction it is the law of the arc that takes the last hop
+/// away, together with all that rests: in a pile one after the other would make each other hop.
 void settle_hop(const ModelData& model, int contact, Node& node) {
   Contact& c = node.contacts[contact];
   if (c.friction > 0) {

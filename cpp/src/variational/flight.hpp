@@ -33,8 +33,8 @@ struct SlipScratch {
   std::vector<Vec3> before;   ///< impulses
   double tau = 0;             ///< [s] the arc that the impulses of the holds are over
   double residual = 0;        ///< of Coulomb's law, in the arc just solved
-  VecX p;     ///< (n_q) the node's with all impulses, written by set_slip_rates
-  VecX size;  ///< (n_q) of all that is summed up in it, likewise
+  VecX p;                     ///< (n_q) the node's with all impulses, written by set_slip_rates
+  VecX size;                  ///< (n_q) of all that is summed up in it, likewise
 };
 
 struct Flight {
@@ -52,7 +52,8 @@ struct Flight {
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  /// A pool, of most_constraints + 1, or with friction as many as contacts ask for; `active` are used.
+  /// A pool, of most_constraints + 1, or with friction as many as contacts ask for; `active` are
+  /// used.
   std::vector<ArcConstraint> constraints;
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy

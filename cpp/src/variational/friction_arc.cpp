@@ -105,7 +105,8 @@ bool solve_rounds(const ModelData& model, const StepOptions& options, double tau
     f.slip.residual = now.least();
     const bool ends = round == most_rounds || idle == most_idle;
     if (f.arc.residual <= most_residual && ends && f.slip.residual <= large_residual) break;
-    if (f.arc.residual <= most_residual && is_solved && is_lawful(now, before, x.contact.size())) break;
+    if (f.arc.residual <= most_residual && is_solved && is_lawful(now, before, x.contact.size()))
+      break;
     if (ends || !std::isfinite(now.residual) || !set_slip_blocks(model, node, f)) {
       f.closing = most_lawless(f);
       return false;

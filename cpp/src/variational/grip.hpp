@@ -72,7 +72,7 @@ struct PolishScratch {
 struct FrictionScratch {
   explicit FrictionScratch(bool with_friction);
   void reserve(std::size_t contacts);  ///< no effect where there is room
-  bool any;  ///< some pair of materials has friction
+  bool any;                            ///< some pair of materials has friction
   ContactBlocks W;
   std::vector<Vec3> u, p;
   std::vector<int> contact;  ///< of each block: an index in the node's or flight's list
@@ -80,8 +80,8 @@ struct FrictionScratch {
   PileScratch pile;
   PolishScratch polish;
   std::vector<ImpulseMemory> memory;  ///< (pool), of a node
-  double residual = 0;             ///< of Coulomb's law, the largest of a step's closing half kicks
-  int flight = 0;                  ///< the number of the flight that leaves the node
+  double residual = 0;  ///< of Coulomb's law, the largest of a step's closing half kicks
+  int flight = 0;       ///< the number of the flight that leaves the node
 };
 
 /// u = 0 to rounding where contacts are pressed, see above. u and p stay as they are where that is

@@ -96,8 +96,8 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
 /// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
-ImpactTime find_return(const ModelData& model, const StepOptions& options, int place,
-                       Node& node, Flight& f) {
+ImpactTime find_return(const ModelData& model, const StepOptions& options, int place, Node& node,
+                       Flight& f) {
   const int contact = node.contact_of[place];
   if (contact < 0) return ImpactTime::missed;  // a part that does not face the other any more
   const Contact& c = node.contacts[contact];
@@ -129,8 +129,8 @@ ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node,
   return {node.q, node.p, tau, constraints, whole_step(options)};
 }
 
-bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
-                      Node& node, Flight& f) {
+bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau, Node& node,
+                      Flight& f) {
   const bool converged =
       tau > 0 && needs_friction_arc(node)
           ? solve_friction_arc(model, options, tau, node, f)
@@ -145,7 +145,8 @@ ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, 
   const Pair& pair = node.pool[place];
   const double tau = f.arc.tau;
   // most often the velocity of the shorter arc can be told from the arcs before
-  if (f.active == 0 && !needs_friction_arc(node) && f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
+  if (f.active == 0 && !needs_friction_arc(node) &&
+      f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
     if (refine_at_once(model, options, pair, s * tau, tau, node, f)) return ImpactTime::found;
     f.arc.v = f.start_v;
     if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;

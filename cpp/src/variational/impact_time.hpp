@@ -19,8 +19,8 @@ ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node,
 
 /// Solves the arc of duration tau from the node: with the flight's active constraints, or where
 /// there is friction with all that rests (friction_arc.hpp).
-bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau,
-                      Node& node, Flight& flight);
+bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau, Node& node,
+                      Flight& flight);
 
 /// @param place of the pair in the node's pool
 /// @param s where on the chord of flight.arc (of duration tau) the gap closes; 0 for a pair that

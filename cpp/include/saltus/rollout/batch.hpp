@@ -25,8 +25,8 @@ struct BatchOptions {
 
 /// How one run went.
 struct RunOutcome {
-  std::vector<Impact> impacts;    ///< in order of time; `first` counts into `impulses`
-  std::vector<Impulse> impulses;  ///< of all its impacts
+  std::vector<Impact> impacts;              ///< in order of time; `first` counts into `impulses`
+  std::vector<Impulse> impulses;            ///< of all its impacts
   std::vector<TangentialImpulse> friction;  ///< of those of `impulses` that had any
   std::vector<Settling> settlings;
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify

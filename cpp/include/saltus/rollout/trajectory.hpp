@@ -21,10 +21,10 @@ struct SALTUS_EXPORT Trajectory {
   std::vector<Impulse> impulses;
   std::vector<TangentialImpulse> friction;  ///< of those of `impulses` that had any
   std::vector<Settling> settlings;          ///< in order of time
-  std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
-  long iterations = 0;                    ///< Newton iterations in all
-  double residual = 0;                    ///< [largest momentum] the worst of any step
-  bool complete = false;                  ///< false: stopped on request before `duration`
+  std::vector<std::string> certificates;    ///< (impacts) if StepOptions::certify
+  long iterations = 0;                      ///< Newton iterations in all
+  double residual = 0;                      ///< [largest momentum] the worst of any step
+  bool complete = false;                    ///< false: stopped on request before `duration`
 
   VecX total() const { return kinetic + potential; }
   /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).
