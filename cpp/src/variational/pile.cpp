@@ -243,9 +243,9 @@ Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u
 
 Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
                         std::vector<Vec3>& p, double part) {
-  const double before = part > 0 ? lawlessness(W, u, p).residual : 2 * small_residual;
+  const double before = lawlessness(W, u, p).residual;
   const Settled first = settle_pile(W, s, u, p, part);
-  if (first.least() < before / 2) return first;
+  if (first.least() <= small_residual || (part > 0 && first.least() < before / 2)) return first;
   // sweeps lead out of where Newton's method turns in a circle
   const int most_sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
   settle(W, most_sweeps, u, p);
