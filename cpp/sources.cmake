@@ -103,6 +103,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/redundant.cpp
   cpp/src/variational/slip_blocks.cpp
   cpp/src/variational/small_qp.cpp
+  cpp/src/variational/step_errors.cpp
   cpp/src/variational/stepper.cpp
   # rollout
   cpp/src/rollout/batch.cpp

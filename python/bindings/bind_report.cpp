@@ -39,6 +39,9 @@ sustained : int
     Contacts of its arcs that were held closed by a force.
 residual : float
     [largest momentum] of the worst arc.
+friction_residual : float
+    [largest impulse or rate] how far from Coulomb's law the worst arc or closing half kick is: to
+    1e-9 that is rounding, and more than 1e-6 a `StepError`. 0 without friction.
 impacts : list of Impact
 settlings : list of (float, str)
     Time [s] and name of each pair that bounced ever lower and has come to rest.
@@ -135,6 +138,7 @@ void bind_step_report(py::module_& m) {
       .def_readonly("arcs", &R::arcs)
       .def_readonly("sustained", &R::sustained)
       .def_readonly("residual", &R::residual)
+      .def_readonly("friction_residual", &R::friction_residual)
       .def_readonly("impacts", &R::impacts)
       .def_readonly("settlings", &R::settlings)
       .def_readonly("contacts", &R::contacts)
@@ -148,7 +152,7 @@ void bind_step_report(py::module_& m) {
 }  // namespace
 
 NamedReport with_names(const Model& model, const StepReport& r) {
-  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, {}, {}, {}};
+  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual, {}, {}, {}};
   for (const Impact& impact : r.impacts) {
     out.impacts.push_back(with_names(model, r, impact));
   }

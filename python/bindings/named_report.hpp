@@ -32,6 +32,7 @@ struct NamedContact {
 struct NamedReport {
   int iterations, arcs, sustained;
   double residual;
+  double friction_residual;
   std::vector<NamedImpact> impacts;
   std::vector<std::pair<double, std::string>> settlings;
   std::vector<NamedContact> contacts;

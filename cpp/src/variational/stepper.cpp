@@ -1,4 +1,4 @@
-#include "saltus/variational/stepper.hpp"
+#include "variational/stepper_impl.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -18,43 +18,6 @@ namespace {
 constexpr double no_duration = 1e-12;
 
 }  // namespace
-
-struct Stepper::Impl {
-  Impl(const Model& with, const StepOptions& with_options)
-      : model(with_options.collisions ? with : with.without_collisions()),
-        options(with_options),
-        node(*model),
-        flight(*model, options, node.friction.any) {
-    last.q.setZero(model.n_q());
-    last.p.setZero(model.n_q());
-    report.impacts.reserve(64);
-    report.impulses.reserve(1024);
-    if (node.friction.any) report.friction.reserve(1024);
-    report.settlings.reserve(64);
-    report.contacts.reserve(64);
-  }
-
-  void step(State& state);
-  void start(const State& state);
-  void check_overlap() const;
-  void fly_one_arc(double left);
-  void arrive(double t);
-  double conserved_energy();
-  void finish();
-  [[noreturn]] void fail(FlightOutcome outcome) const;
-  [[noreturn]] void fail_jammed();
-  [[noreturn]] void fail_impacts() const;
-  std::string contact_list() const;
-  std::string singular_joint() const;
-
-  Model model;
-  StepOptions options;
-  Node node;
-  Flight flight;
-  StepReport report;
-  State last;  // where the step starts; the node still holds it if the last step ended there
-  bool last_is_valid = false;
-};
 
 Stepper::Stepper(const Model& model, const StepOptions& options) {
   check_options(options);
@@ -219,83 +182,6 @@ void Stepper::Impl::finish() {
   last.q = node.q;
   last.p = node.p;
   last_is_valid = true;
-}
-
-std::string Stepper::Impl::contact_list() const {
-  std::vector<std::string> names;
-  for (int i = 0; i < node.touching; ++i)
-    names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
-  return list_names(names);
-}
-
-/// The joint that is nearest to where its yaw and roll are one, if any is within half a radian.
-std::string Stepper::Impl::singular_joint() const {
-  std::ostringstream text;
-  double least = 0.5;
-  for (const JointInfo& joint : model->joints) {
-    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
-    const double pitch = node.q[joint.coordinates[joint.coordinates.size() - 2]];
-    if (!(std::abs(std::cos(pitch)) < least)) continue;
-    least = std::abs(std::cos(pitch));
-    text.str("");
-    text << "; joint \"" << joint.name << "\" is at pitch = " << pitch
-         << " rad, and singular at +-90 deg";
-  }
-  return text.str();
-}
-
-void Stepper::Impl::fail(FlightOutcome outcome) const {
-  std::ostringstream text;
-  const Arc& arc = flight.arc;
-  switch (outcome) {
-    case FlightOutcome::too_many_contacts:
-      text << "more than " << most_constraints
-           << " sustained contacts (three each where they stick) at t = " << node.t
-           << " s: " << contact_list();
-      break;
-    case FlightOutcome::impact_not_located:
-      text << "the time after t = " << node.t << " s at which "
-           << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
-      break;
-    case FlightOutcome::friction_not_settled:
-      text << "friction at t = " << node.t
-           << " s: " << model.pair_name(node.pool.number(flight.closing))
-           << " neither sticks nor slides, a smaller h helps where it turns fast";
-      break;
-    case FlightOutcome::no_progress:
-      text << "contacts at t = " << node.t
-           << " s keep closing and opening within one arc: " << contact_list();
-      break;
-    default:
-      text << "DEL residual " << arc.residual << " after " << arc.iterations
-           << " iterations at t = " << node.t << " s, arc of " << arc.tau
-           << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
-      text << singular_joint();
-  }
-  throw StepError(text.str(), node.t, arc.residual, arc.iterations);
-}
-
-void Stepper::Impl::fail_jammed() {
-  set_contact_matrix(*model, node);
-  if (has_friction(node) && can_open(node)) {
-    flight.closing = node.contacts[0].pair;
-    fail(FlightOutcome::friction_not_settled);
-  }
-  std::ostringstream text;
-  text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
-       << " impulses: "
-       << (can_open(node) ? "more may do (max_impulses) at "
-                          : "no motion opens all of, jammed are ")
-       << contact_list();
-  throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
-}
-
-void Stepper::Impl::fail_impacts() const {
-  std::ostringstream text;
-  text << "more than " << options.max_impacts << " impacts in the step from t = " << last.t
-       << " s, at t = " << node.t << " s between " << contact_list()
-       << "; a smaller h, or a larger max_impacts if this is meant";
-  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
 }
 
 }  // namespace saltus

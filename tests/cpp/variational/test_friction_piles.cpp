@@ -101,5 +101,42 @@ TEST(FrictionPiles, ATowerBearsTheWeightOfAllAbove) {
   EXPECT_NEAR(floor, 5 * gravity * 0.01, 1e-11);
 }
 
+// Yaw of the lowest box turns the contacts within the arc: forces act where they are at its start,
+// rates are felt where they are in its middle and by its end.
+TEST(FrictionPiles, ABoxIsTwistedOutFromUnderATower) {
+  const Model model = boxes_on_slope(3, half, 0, {0, 0.5});
+  const State start = model.state({}, {{"box_0_x", 1}, {"box_0_yaw", 3}});
+  const State end = run_losing_energy(model, start, 1, 0.01);
+  EXPECT_LE(model.velocity(end).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_GT(end.q[0], 0.02);
+  // it takes its share of those above along, and turns further than they do
+  EXPECT_GT(end.q[5], end.q[11]);
+}
+
+TEST(FrictionPiles, BouncesOfATowerComeToRestTogether) {
+  const double height = 0.01;
+  const Model model = boxes_on_slope(3, half, 0, {0.5, 0.5}, height);
+  const State end = run_losing_energy(model, model.state(), 1, 0.01);
+  EXPECT_LE(model.velocity(end).cwiseAbs().maxCoeff(), 1e-12);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(end.q[6 * i + 2], -height, 1e-10);
+}
+
+TEST(FrictionPiles, TheReportSaysHowWellTheLawIsMet) {
+  const Model model = pyramid({3, 2, 1}, half, {0, 0.5});
+  Stepper stepper(model, {.h = 0.01});
+  State state = model.state({}, {{"box_0_x", -0.5}});
+  double most = 0;
+  for (int k = 0; k < 20; ++k) {
+    stepper.step(state);
+    most = std::max(most, stepper.report().friction_residual);
+  }
+  EXPECT_GT(most, 0);  // rounding, which is never quite nothing
+  EXPECT_LE(most, 1e-9);
+  Stepper smooth(boxes_on_slope(1, half, 0, {0, 0}), {.h = 0.01});
+  State rests = smooth.model().state();
+  smooth.step(rests);
+  EXPECT_EQ(smooth.report().friction_residual, 0);
+}
+
 }  // namespace
 }  // namespace saltus

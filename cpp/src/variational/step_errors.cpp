@@ -1,0 +1,88 @@
+// What a step that fails says.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "variational/stepper_impl.hpp"
+
+namespace saltus {
+
+std::string Stepper::Impl::contact_list() const {
+  std::vector<std::string> names;
+  for (int i = 0; i < node.touching; ++i)
+    names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
+  return list_names(names);
+}
+
+/// The joint that is nearest to where its yaw and roll are one, if any is within half a radian.
+std::string Stepper::Impl::singular_joint() const {
+  std::ostringstream text;
+  double least = 0.5;
+  for (const JointInfo& joint : model->joints) {
+    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+    const double pitch = node.q[joint.coordinates[joint.coordinates.size() - 2]];
+    if (!(std::abs(std::cos(pitch)) < least)) continue;
+    least = std::abs(std::cos(pitch));
+    text.str("");
+    text << "; joint \"" << joint.name << "\" is at pitch = " << pitch
+         << " rad, and singular at +-90 deg";
+  }
+  return text.str();
+}
+
+void Stepper::Impl::fail(FlightOutcome outcome) const {
+  std::ostringstream text;
+  const Arc& arc = flight.arc;
+  switch (outcome) {
+    case FlightOutcome::too_many_contacts:
+      text << "more than " << most_constraints << " sustained contacts at t = " << node.t
+           << " s: " << contact_list();
+      break;
+    case FlightOutcome::impact_not_located:
+      text << "the time after t = " << node.t << " s at which "
+           << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
+      break;
+    case FlightOutcome::friction_not_settled:
+      text << "friction at t = " << node.t
+           << " s: " << model.pair_name(node.pool.number(flight.closing))
+           << " neither sticks nor slides, it is off Coulomb's law by "
+           << std::max(flight.slip.residual, node.friction.residual)
+           << " of the largest impulse; a smaller h helps where it turns fast" << singular_joint();
+      break;
+    case FlightOutcome::no_progress:
+      text << "contacts at t = " << node.t
+           << " s keep closing and opening within one arc: " << contact_list();
+      break;
+    default:
+      text << "DEL residual " << arc.residual << " after " << arc.iterations
+           << " iterations at t = " << node.t << " s, arc of " << arc.tau
+           << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
+      text << singular_joint();
+  }
+  throw StepError(text.str(), node.t, arc.residual, arc.iterations);
+}
+
+void Stepper::Impl::fail_jammed() {
+  set_contact_matrix(*model, node);
+  if (has_friction(node) && can_open(node)) {
+    flight.closing = node.contacts[0].pair;
+    fail(FlightOutcome::friction_not_settled);
+  }
+  std::ostringstream text;
+  text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
+       << " impulses: "
+       << (can_open(node) ? "more may do (max_impulses) at "
+                          : "no motion opens all of, jammed are ")
+       << contact_list();
+  throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
+}
+
+void Stepper::Impl::fail_impacts() const {
+  std::ostringstream text;
+  text << "more than " << options.max_impacts << " impacts in the step from t = " << last.t
+       << " s, at t = " << node.t << " s between " << contact_list()
+       << "; a smaller h, or a larger max_impacts if this is meant";
+  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+}
+
+}  // namespace saltus
