@@ -106,6 +106,7 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   std::fill(f.flips.begin(), f.flips.end(), 0);
   std::fill(f.level.begin(), f.level.end(), 0);
   f.active = 0;
+  f.slip.residual = 0;
   if (node.friction.any) make_room(model, node, f);
   if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any) recall_impulses(left, node, f);

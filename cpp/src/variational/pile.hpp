@@ -16,7 +16,9 @@
 //
 //   F(z) = z - K^T P(p_k - rho (u_0 + L z)) = 0,   F' = 1 + rho K^T P' L
 //
-// by Newton's method with backtracking on |F|. rho grows where that ends, and shrinks where not.
+// by Newton's method with backtracking on |F|. The first rho is large: one round is enough where it
+// is known who sticks and who slides. Then rho grows where Newton's method ends nearer to the law;
+// where not, the round is taken back, and rho shrinks.
 // Impulses and rates are scaled by sqrt(W_ii), so that light and heavy bodies count alike.
 #pragma once
 

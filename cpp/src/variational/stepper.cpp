@@ -123,9 +123,7 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().fallback = true;
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
-  if (flight.active > 0) {
-    report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
-  }
+  report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
   ++report.arcs;
   report.sustained += flight.active;
   tell_holds(node, flight, report);

@@ -26,6 +26,7 @@ std::vector<Table> planks() {
 struct Scene {
   std::vector<Table> tables;
   bool rod = false;  ///< a capsule along x, else a box
+  bool can = false;  ///< a cylinder that stands
   double friction = 0;
   double yaw = 0;    ///< [rad]
   double at = 0.5;   ///< [m] x of the body's centre; its ends are 0.2 m from there
@@ -50,6 +51,8 @@ Model slide(const Scene& s) {
   const Mat3 turned = rotation_from_rpy(0, 0, s.yaw);
   if (s.rod) {
     b.add_shape("body", Capsule{0.05, 0.2}, {turned * lying, Vec3::Zero()});
+  } else if (s.can) {
+    b.add_shape("body", Cylinder{0.1, 0.1}, {turned, Vec3::Zero()});
   } else {
     b.add_shape("body", Box{half}, {turned, Vec3::Zero()});
   }
@@ -188,6 +191,17 @@ TEST(Borders, ARodTipsAndLeavesTheEdge) {
 TEST(Borders, FrictionIsTheSameOnBothSidesOfTheEdge) {
   const double mu = 0.1, h = 0.005;
   const Model model = slide({.tables = {one}, .friction = mu});
+  const Slid r = go(model, 1.2, 0, h, 80);
+  const double t = 80 * h;
+  EXPECT_EQ(r.impacts, 0);
+  EXPECT_LE(r.off_level, still);
+  EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.2 * t - mu * 9.81 * t * t / 2, still);
+}
+
+// Its rim goes over from its points to its crossings with the border, all of them with friction.
+TEST(Borders, ACanWithFrictionStandsOnBothSidesOfTheEdge) {
+  const double mu = 0.1, h = 0.005;
+  const Model model = slide({.tables = {one}, .can = true, .friction = mu, .at = 0.55});
   const Slid r = go(model, 1.2, 0, h, 80);
   const double t = 80 * h;
   EXPECT_EQ(r.impacts, 0);
