@@ -62,6 +62,12 @@ PREDICTED = {
     ],
     "pairs": ["27 pairs 0.4 m apart, to 1e-14 m"],
     "quadruped": ["contacts held: 8"],
+    "tower": [
+        "the contacts of floor bear 39.240 N",
+        "the contacts of box_3 bear 9.810 N",
+        "energy lost: 0.125 J",
+        "less than 1e-9 m/s: True",
+    ],
     "which_outcome": [
         "order_dependent, at most 2 impulses cos = -0.2500",
         "one after the other: cue [-0.25, 0.433013]",
