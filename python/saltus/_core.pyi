@@ -1690,6 +1690,9 @@ class StepReport:
         Contacts of its arcs that were held closed by a force.
     residual : float
         [largest momentum] of the worst arc.
+    friction_residual : float
+        [largest impulse or rate] how far from Coulomb's law the worst arc or closing half kick is: to
+        1e-9 that is rounding, and more than 1e-6 a `StepError`. 0 without friction.
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
@@ -1701,6 +1704,8 @@ class StepReport:
     def arcs(self) -> int: ...
     @property
     def contacts(self) -> list[ContactImpulse]: ...
+    @property
+    def friction_residual(self) -> float: ...
     @property
     def impacts(self) -> list[Impact]: ...
     @property
