@@ -151,3 +151,11 @@ def test_peers_step_the_same_motion(engine):
             state = stepper.advance(state)
         moved = np.abs(state.q - scene.angle).max()
         assert np.abs(simulation.angles() - state.q).max() < 0.02 * moved  # they are of order one
+
+
+def test_towers_stand_in_their_benchmark():
+    call = [sys.executable, "-m", "tests.bench.pile", "--boxes", "2", "--duration", "0.1"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+    cells = done.stdout.splitlines()[2].split("|")
+    assert [cell.strip() for cell in cells[1:4]] == ["2", "saltus", "10"]
+    assert float(cells[6]) < 1e-11  # [m] drift, rounding is 1e-14
