@@ -187,26 +187,20 @@ TEST(Borders, ARodTipsAndLeavesTheEdge) {
   }
 }
 
-// All corners and edges slide alike, whoever bears the load: x = v t - mu g t^2 / 2.
+// All corners and edges slide alike, whoever bears the load: x = v t - mu g t^2 / 2. The rim of a
+// can goes over from its points to its crossings with the border.
 TEST(Borders, FrictionIsTheSameOnBothSidesOfTheEdge) {
   const double mu = 0.1, h = 0.005;
-  const Model model = slide({.tables = {one}, .friction = mu});
-  const Slid r = go(model, 1.2, 0, h, 80);
-  const double t = 80 * h;
-  EXPECT_EQ(r.impacts, 0);
-  EXPECT_LE(r.off_level, still);
-  EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.2 * t - mu * 9.81 * t * t / 2, still);
-}
-
-// Its rim goes over from its points to its crossings with the border, all of them with friction.
-TEST(Borders, ACanWithFrictionStandsOnBothSidesOfTheEdge) {
-  const double mu = 0.1, h = 0.005;
-  const Model model = slide({.tables = {one}, .can = true, .friction = mu, .at = 0.55});
-  const Slid r = go(model, 1.2, 0, h, 80);
-  const double t = 80 * h;
-  EXPECT_EQ(r.impacts, 0);
-  EXPECT_LE(r.off_level, still);
-  EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.2 * t - mu * 9.81 * t * t / 2, still);
+  const Scene box = {.tables = {one}, .friction = mu};
+  const Scene can = {.tables = {one}, .can = true, .friction = mu, .at = 0.55};
+  for (const Scene& scene : {box, can}) {
+    const Model model = slide(scene);
+    const Slid r = go(model, 1.2, 0, h, 80);
+    const double t = 80 * h;
+    EXPECT_EQ(r.impacts, 0);
+    EXPECT_LE(r.off_level, still);
+    EXPECT_NEAR(r.end.q[model.coordinate("x_x")], 1.2 * t - mu * 9.81 * t * t / 2, still);
+  }
 }
 
 TEST(Borders, FrictionIsTheSameOnBothSidesOfASeam) {

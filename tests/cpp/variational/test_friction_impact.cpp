@@ -11,9 +11,8 @@ struct Scene {
 };
 
 /// Contacts whose normals lie in a cone, so that they can all be left.
-Scene random_scene(int contacts, double greatest_friction, std::mt19937& random) {
+Scene random_scene(int contacts, int n, double greatest_friction, std::mt19937& random) {
   std::uniform_real_distribution<double> unit;
-  const int n = 3 + 2 * contacts;
   const MatX A = random_matrix(n, n, random);
   Scene s;
   s.M = A * A.transpose() + 0.3 * MatX::Identity(n, n);
@@ -27,6 +26,11 @@ Scene random_scene(int contacts, double greatest_friction, std::mt19937& random)
   for (double& e : s.e) e = unit(random);
   for (double& mu : s.mu) mu = greatest_friction * unit(random);
   return s;
+}
+
+/// Whose rates are independent of each other.
+Scene random_scene(int contacts, double greatest_friction, std::mt19937& random) {
+  return random_scene(contacts, 3 + 2 * contacts, greatest_friction, random);
 }
 
 FrictionOutcome resolve(const Scene& s) { return resolve_impact(s.M, s.N, s.T, s.v, s.e, s.mu); }
@@ -175,15 +179,8 @@ TEST(FrictionImpact, WhatFrictionCanHoldAgainstAnyApproachIsStopped) {
 TEST(FrictionImpact, RedundantContactsThatDoNotReboundObeyCoulombTogether) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 200; ++trial) {  // up to 12 contacts, 36 rates, 8 coordinates
-    const int contacts = 2 + trial % 11, n = 8;
-    Scene s;
-    const MatX A = random_matrix(n, n, random);
-    s.M = A * A.transpose() + 0.3 * MatX::Identity(n, n);
-    s.N = random_matrix(contacts, n, random);
-    s.N.col(0) = s.N.col(0).cwiseAbs().array() + 1;
-    s.T = random_matrix(2 * contacts, n, random);
-    s.v = random_vector(n, random);
-    s.v[0] -= 3;
+    const int contacts = 2 + trial % 11;
+    Scene s = random_scene(contacts, 8, 1, random);
     s.e = VecX::Zero(contacts);
     s.mu = VecX::Constant(contacts, 0.3);
     const FrictionOutcome out = resolve(s);
