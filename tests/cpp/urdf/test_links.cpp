@@ -97,7 +97,7 @@ TEST(UrdfLinks, TheRootMayFloat) {
 
 TEST(UrdfLinks, TheRootMayMoveOtherwise) {
   const std::string text = robot(ball_link("cart"));
-  EXPECT_EQ(load(text, {.root_joint = JointType::spherical}).n_q(), 3);
+  EXPECT_EQ(load(text, {.root_joint = JointType::spherical}).n_q(), 4);
   const Model flat = load(text, {.root_joint = JointType::planar});
   expect_near(pose_of(flat, "cart", {{"root_x", 1}, {"root_y", 2}}).p, {1, 2, 0});
   const Model lift = load(text, {.root_joint = JointType::prismatic});

@@ -44,13 +44,13 @@ TEST(FrictionPiles, ATowerOnASlopeStaysOrSlidesAsAWhole) {
   const Model slides = boxes_on_slope(10, slab, angle, {0, 0.5}, 0, mu);
   const State end = run_losing_energy(slides, slides.state(), 1, 0.01);
   const double a = gravity * (a_over_g - mu * std::cos(angle));
-  for (int i = 0; i < 10; ++i) EXPECT_NEAR(end.q[6 * i], a / 2, 1e-9);
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(end.q[7 * i], a / 2, 1e-9);
   EXPECT_NEAR(slides.velocity(end)[0], a, 1e-9);
 }
 
 TEST(FrictionPiles, ATowerWhoseLowestBoxIsHitComesToRest) {
   const Model model = boxes_on_slope(10, half, 0, {0, 0.5});
-  const State start = model.state({}, {{"box_0_x", 0.1}, {"box_0_yaw", 0.3}});
+  const State start = model.state({}, {{"box_0_vx", 0.1}, {"box_0_wz", 0.3}});
   const State end = run_losing_energy(model, start, 1, 0.01);
   EXPECT_LE(model.velocity(end).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LE(energy(model, end) - energy(model, start), -0.004);
@@ -105,7 +105,7 @@ TEST(FrictionPiles, ATowerBearsTheWeightOfAllAbove) {
 // rates are felt where they are in its middle and by its end.
 TEST(FrictionPiles, ABoxIsTwistedOutFromUnderATower) {
   const Model model = boxes_on_slope(3, half, 0, {0, 0.5});
-  const State start = model.state({}, {{"box_0_x", 1}, {"box_0_yaw", 3}});
+  const State start = model.state({}, {{"box_0_vx", 1}, {"box_0_wz", 3}});
   const State end = run_losing_energy(model, start, 1, 0.01);
   EXPECT_LE(model.velocity(end).cwiseAbs().maxCoeff(), 1e-11);
   EXPECT_GT(end.q[0], 0.02);
