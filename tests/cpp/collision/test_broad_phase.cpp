@@ -241,7 +241,7 @@ TEST(BroadPhase, FindsTheSameWhateverCameBefore) {
     const World world = random_world(random);
     const int n = world.tree.n_v;
     BroadPhase bp = world.broad_phase();
-    VecX q = random.numbers(n, 3);
+    VecX q = random_coordinates(world.tree, 3, random);
     for (int leap = 0; leap < 4; ++leap) {
       const VecX dq = random.numbers(n, 0.003);
       for (int k = 0; k < 12; ++k) {  // a drift, wider and narrower sweeps and margins
@@ -250,7 +250,7 @@ TEST(BroadPhase, FindsTheSameWhateverCameBefore) {
         EXPECT_EQ(world.find(q, wide * dq, margin, bp), world.find(q, wide * dq, margin, fresh));
         q = moved(world.tree, q, 1, dq);
       }
-      q += random.numbers(n, 1);
+      q = moved(world.tree, q, 1, random.numbers(n, 1));
     }
   }
 }

@@ -87,12 +87,13 @@ TEST(UrdfLinks, TheRootMayFloat) {
   const std::string text =
       robot(ball_link("pelvis") + ball_link("leg") + joint("hip", "continuous", "pelvis", "leg"));
   const Model model = load(text, {.root_joint = JointType::floating});
-  ASSERT_EQ(model.n_q(), 7);
+  ASSERT_EQ(model.n_q(), 8);
+  ASSERT_EQ(model.n_v(), 7);
   EXPECT_EQ(model->coordinates[0].name, "root_x");
-  EXPECT_EQ(model->coordinates[6].name, "hip");
+  EXPECT_EQ(model->coordinates[7].name, "hip");
   EXPECT_EQ(model->links[0].name, "world");
   expect_near(pose_of(model, "pelvis", {{"root_z", 2}}).p, {0, 0, 2});
-  EXPECT_DOUBLE_EQ(model.mass_matrix(VecX::Zero(7))(0, 0), 4);  // all of the mass
+  EXPECT_DOUBLE_EQ(model.mass_matrix(model.neutral())(0, 0), 4);  // all of the mass
 }
 
 TEST(UrdfLinks, TheRootMayMoveOtherwise) {
@@ -117,7 +118,7 @@ TEST(UrdfLinks, NamesOfTheRootJointAreNew) {
   const Model model = load(text, {.root_joint = JointType::floating});
   EXPECT_EQ(model->links[0].name, "world_");
   EXPECT_EQ(model->coordinates[0].name, "root__x");
-  EXPECT_EQ(model->coordinates[6].name, "root");
+  EXPECT_EQ(model->coordinates[7].name, "root");
 }
 
 TEST(UrdfLinks, NameSourceAndGravity) {
