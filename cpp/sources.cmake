@@ -148,6 +148,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_lagrangian.cpp
   # collision
   python/bindings/bind_collision.cpp
+  python/bindings/bind_configuration.cpp
   # model
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp

@@ -14,6 +14,7 @@ set(SALTUS_TEST_lagrangian
   plain/composite.cpp
   plain/energy.cpp
   lagrangian/test_arc_matrix.cpp
+  lagrangian/test_ball_arcs.cpp
   lagrangian/test_balls.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
@@ -50,7 +51,9 @@ set(SALTUS_TEST_model
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_ball_impacts.cpp
   variational/test_balls.cpp
+  variational/test_tops.cpp
   variational/test_borders.cpp
   variational/test_certificate.cpp
   variational/test_contact_space.cpp
