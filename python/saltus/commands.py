@@ -45,7 +45,7 @@ def simulate(chosen: argparse.Namespace) -> int:
     try:
         run = _run(chosen)
     except saltus.StepError as error:
-        before = getattr(error, "trajectory", None)
+        before = error.trajectory
         if chosen.out and before is not None:
             files.save(before, chosen.out)
             print(f"trajectory, up to t = {before.t[-1]:g} s: {chosen.out}")

@@ -106,7 +106,8 @@ Plan make_plan(double duration, const SimulateOptions& options) {
 void check_memory(const Model& model, Plan& plan, Eigen::Index runs) {
   const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
   const double gigabytes = doubles * (4 + 3 * model.n_q()) * 8e-9;
-  plan.most_contacts = (most_gigabytes - gigabytes) * 1e9 / sizeof(RecordedContact) / runs;
+  const double bytes = static_cast<double>(runs) * sizeof(RecordedContact);  // one contact a run
+  plan.most_contacts = (most_gigabytes - gigabytes) * 1e9 / bytes;
   if (gigabytes <= most_gigabytes) return;
   std::ostringstream text;
   if (runs > 1) text << runs << " runs of ";
