@@ -20,7 +20,7 @@ for name, mass, half, at in (
     free = saltus.JointType.floating
     builder.add_joint(name, free, parent="world", child=name, X_PJ=saltus.Pose(at))
 model = builder.build()
-run = saltus.simulate(model, v={"cube_x": 0.5}, duration=0.5, h=0.01, record_contacts=True)
+run = saltus.simulate(model, v={"cube_vx": 0.5}, duration=0.5, h=0.01, record_contacts=True)
 
 
 def pressure_at(row: int) -> float:

@@ -141,7 +141,7 @@ def test_two_balls_meet_on_the_line_of_their_centres():
     radii, at, there = (0.1, 0.25), np.array([-1, 0.05, 0.02]), np.array([0.4, -0.03, 0.1])
     shapes = [saltus.Sphere(radius) for radius in radii]
     model = two_bodies(*shapes, saltus.Pose(at), saltus.Pose(there))
-    run = saltus.simulate(model, v={"one_x": 2.0, "other_y": 0.1}, duration=1.0, h=H)
+    run = saltus.simulate(model, v={"one_vx": 2.0, "other_vy": 0.1}, duration=1.0, h=H)
     (impact,) = (run.impact(i) for i in range(len(run.impacts)))
     way = impact.t * np.array([[2.0, 0, 0], [0, 0.1, 0]])
     centres = at + way[0], there + way[1]
@@ -162,7 +162,7 @@ def test_edges_meet_where_they_cross():
         (0.1, 0.2, 0), saltus.rotation_from_rpy(0, 0, np.pi / 2)
         @ saltus.rotation_from_rpy(np.pi / 4, 0, 0)
     )  # fmt: skip
-    for v, order in (({"one_z": -1.0}, (upper, lower)), ({"other_z": -1.0}, (lower, upper))):
+    for v, order in (({"one_vz": -1.0}, (upper, lower)), ({"other_vz": -1.0}, (lower, upper))):
         model = two_bodies(box, box, *order)
         run = saltus.simulate(model, v=v, duration=0.5, h=H)
         first = run.impact(0)

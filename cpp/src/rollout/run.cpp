@@ -105,7 +105,7 @@ Plan make_plan(double duration, const SimulateOptions& options) {
 
 void check_memory(const Model& model, Plan& plan, Eigen::Index runs) {
   const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
-  const double gigabytes = doubles * (4 + 3 * model.n_q()) * 8e-9;
+  const double gigabytes = doubles * (4 + model.n_q() + 2 * model.n_v()) * 8e-9;
   const double bytes = static_cast<double>(runs) * sizeof(RecordedContact);  // one contact a run
   plan.most_contacts = (most_gigabytes - gigabytes) * 1e9 / bytes;
   if (gigabytes <= most_gigabytes) return;
@@ -131,6 +131,7 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
   stepper.forget();
   if (plan.record_contacts) outcome.contacts.emplace();
   State state = start;
+  state.q = model.checked_q(start.q, "state.q");
   measure(*model, state, plan.step.h, meter);
   record(state, meter, 0, rows);
   long k = 0;
