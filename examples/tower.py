@@ -22,7 +22,7 @@ stepper = saltus.Stepper(model, h=0.01)
 stepper.advance(model.state())
 contacts = stepper.report.contacts
 for name in ("floor", "box_3"):
-    force = sum(c.normal for c in contacts if name in c.pair) / stepper.options.h
+    force = sum(c.impulse for c in contacts if name in c.pair) / stepper.options.h
     print(f"the contacts of {name} bear {force:.3f} N")
 
 run = saltus.simulate(model, v={"box_0_vx": 0.5}, duration=1.0, h=0.01)

@@ -111,6 +111,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
         help="which of several approaching contacts is next; default: %(default)s",
     )
     add("--record-every", type=int, default=1, metavar="N", help="steps between recorded rows")
+    add("--contacts", action="store_true", help="--out has every impulse between bodies as well")
     add("--no-collisions", action="store_true", help="bodies pass through each other")
     add("--out", metavar="FILE.h5", help="write the trajectory to this HDF5 file")
     add("--plot", metavar="FILE.png", help="write a picture; its ending says in which format")

@@ -90,10 +90,13 @@ class ModelError(ValueError):
         Kind of the culprit where it has a name ("link", "joint", "coordinate"), else "".
     name : str
         Its name, else "".
+    trajectory : Trajectory or None
+        The rows before it, where it ended a run of `simulate`.
     """
 
     element: typing.ClassVar[str] = ""
     name: typing.ClassVar[str] = ""
+    trajectory: typing.Any
 
 class StepError(RuntimeError):
     """
@@ -107,11 +110,14 @@ class StepError(RuntimeError):
         [largest momentum] scaled residual when the solver gave up.
     iterations : int
         Newton iterations, arcs or impulses spent.
+    trajectory : Trajectory or None
+        The rows before it, where it ended a run of `simulate`.
     """
 
     iterations: typing.ClassVar[int] = 0
     residual: typing.ClassVar[float]
     t: typing.ClassVar[float]
+    trajectory: typing.Any
 
 class JammedError(StepError):
     """
@@ -1783,6 +1789,12 @@ class Impact:
         [N s] the impulses, `p += lambda * phi_q`.
     tangentials : numpy.ndarray, shape (impulses, 3)
         [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+    points : numpy.ndarray, shape (impulses, 3)
+        [m] where each impulse acts, in the world: halfway between the nearest points of the two shapes.
+        NaN where that is not known: in runs from files of before there were points.
+    normals : numpy.ndarray, shape (impulses, 3)
+        Unit normal of each contact, in the world, from the pair's second shape to the first, on which
+        `lambda * normal + tangential` acts. NaN as `points`.
     contacts : int
         Pairs that touched.
     law : ImpactLaw
@@ -1805,6 +1817,8 @@ class Impact:
         certificate: str = "",
         tangentials: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
         | None = None,
+        points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -1819,7 +1833,11 @@ class Impact:
     @property
     def law(self) -> ImpactLaw: ...
     @property
+    def normals(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
     def pairs(self) -> list[str]: ...
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def t(self) -> float: ...
     @property
@@ -1827,24 +1845,36 @@ class Impact:
 
 class ContactImpulse:
     """
-    What held a pair closed over a step: its impulses, but for those of impacts.
+    What held a pair closed over a step: the sum of its impulses, but for those of impacts.
 
-    Divided by the step `h` these are its mean forces.
+    On the pair's first shape acts `impulse * normal + tangential`, at `point`; on the second the
+    opposite. Divided by the step `h` these are mean forces. The impulses that are summed act where the
+    contact is at the start of each arc of the step, and at its end: `point` and `normal` are the mean
+    of these, weighted by the impulses. Where a body slides on a plane the sum has the moment of its
+    parts.
 
     Attributes
     ----------
     pair : str
         Name of the pair.
-    normal : float
+    impulse : float
         [N s] along the normal, >= 0.
     tangential : numpy.ndarray, shape (3,)
-        [N s] friction on the pair's first shape, in the world; 0 without friction.
+        [N s] friction, across the normal, in the world; 0 without friction.
+    point : numpy.ndarray, shape (3,)
+        [m] in the world, halfway between the nearest points of the two shapes.
+    normal : numpy.ndarray, shape (3,)
+        Unit normal in the world, from the pair's second shape to the first.
     """
     def __repr__(self) -> str: ...
     @property
-    def normal(self) -> float: ...
+    def impulse(self) -> float: ...
+    @property
+    def normal(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
     def pair(self) -> str: ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
     def tangential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
 
@@ -1869,7 +1899,7 @@ class StepReport:
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
     contacts : list of ContactImpulse
-        What held pairs closed over the step, impacts left aside.
+        What held pairs closed over the step, a pair once, impacts left aside.
     """
     def __repr__(self) -> str: ...
     @property
@@ -1962,6 +1992,10 @@ class Trajectory:
     """
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
+    def __init__(self, model: Model) -> None:
+        """
+        Of no rows; `simulate` writes to it.
+        """
     @property
     def certificates(self) -> list[str]:
         """
@@ -1969,6 +2003,11 @@ class Trajectory:
         """
     @property
     def complete(self) -> bool: ...
+    @property
+    def contacts(self) -> typing.Any:
+        """
+        structured array: row, t, impact (-1: held), and as impulses; None where they were not recorded
+        """
     @property
     def energy_error(self) -> float: ...
     @property
@@ -1979,7 +2018,7 @@ class Trajectory:
     @property
     def impulses(self) -> typing.Any:
         """
-        structured array: pair, lambda
+        structured array: pair, lambda, tangential, point, normal
         """
     @property
     def iterations(self) -> int: ...
@@ -2023,11 +2062,6 @@ class Trajectory:
     def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         [s] shape (rows,)
-        """
-    @property
-    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        [N s] shape (impulses, 3)
         """
     @property
     def total(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -2077,6 +2111,10 @@ class BatchTrajectory:
     """
     The arrays of a batch, as read-only views; `saltus.BatchTrajectory` wraps this.
     """
+    def __init__(self, model: Model) -> None:
+        """
+        Of no runs; `simulate_batch` writes to it.
+        """
     def run(self, index: typing.SupportsInt | typing.SupportsIndex) -> Trajectory:
         """
         One run as a Trajectory of its own.
@@ -2440,76 +2478,76 @@ def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid 
     """
 
 def simulate(
-    model: Model,
+    run: Trajectory,
     start: State,
     duration: typing.SupportsFloat | typing.SupportsIndex,
     *,
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    record_contacts: bool = False,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
-) -> Trajectory:
+) -> None:
     """
     Runs round(duration / h) steps from `start`; row 0 is `start`.
 
     Parameters
     ----------
-    model : Model
+    run : Trajectory
+        Is written: all rows, those before the step where it raises an error or Ctrl-C
+        (KeyboardInterrupt) stops it, none where numbers make no run. Not `complete` where rows lack.
     start : State
     duration : float
         [s] a whole number of steps.
     options : StepOptions
     record_every : int
         Steps between recorded rows.
+    record_contacts : bool
+        Whether to fill `contacts`.
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-    Returns
-    -------
-    Trajectory
-        Not `complete` where Ctrl-C (KeyboardInterrupt) stopped it.
 
     Raises
     ------
     ModelError
         On a duration or h that is not positive, a duration that is no whole number of steps, a start
-        that does not fit the model or overlaps.
+        that does not fit the model or overlaps, more than 16 GB.
     StepError, JammedError
         As `Stepper.advance`.
     """
 
 def simulate_batch(
-    model: Model,
+    batch: BatchTrajectory,
     starts: collections.abc.Sequence[State],
     duration: typing.SupportsFloat | typing.SupportsIndex,
     *,
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    record_contacts: bool = False,
     threads: typing.SupportsInt | typing.SupportsIndex = 0,
     on_failure: OnFailure = ...,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
-) -> BatchTrajectory:
+) -> None:
     """
     Runs round(duration / h) steps from every start.
 
     Parameters
     ----------
-    model : Model
+    batch : BatchTrajectory
+        Is written: all runs, also where one raises an error; none where numbers make no run. Runs that
+        Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
     starts : list of State
     duration : float
         [s] a whole number of steps.
     options : StepOptions
     record_every : int
         Steps between recorded rows.
+    record_contacts : bool
+        Whether to fill `contacts` of each run.
     threads : int
         0: as many as the machine runs at once. The bits do not depend on it.
     on_failure : OnFailure
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-    Returns
-    -------
-    BatchTrajectory
-        Runs that Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
 
     Raises
     ------

@@ -42,19 +42,14 @@ def simulate(chosen: argparse.Namespace) -> int:
     for path in (chosen.plot, chosen.plot_impacts):
         if path is not None:
             plots.new_figure(path, (1, 1))  # says at once, not after the run, what is missing
-    model = _load(chosen)
-    run = saltus.simulate(
-        model,
-        q=dict(chosen.q),
-        v=dict(chosen.v),
-        duration=chosen.duration,
-        h=chosen.h,
-        law=saltus.ImpactLaw[chosen.law],
-        order=saltus.ImpactOrder[chosen.order],
-        certify=True,
-        collisions=not chosen.no_collisions,
-        record_every=chosen.record_every,
-    )
+    try:
+        run = _run(chosen)
+    except saltus.StepError as error:
+        before = error.trajectory
+        if chosen.out and before is not None:
+            files.save(before, chosen.out)
+            print(f"trajectory, up to t = {before.t[-1]:g} s: {chosen.out}")
+        raise
     _print_impacts(run, everything=chosen.all_impacts)
     print(run.summary())
     if chosen.out:
@@ -67,6 +62,22 @@ def simulate(chosen: argparse.Namespace) -> int:
         run.plot_impacts(chosen.plot_impacts)
         print(f"picture of impacts: {chosen.plot_impacts}")
     return 0 if run.complete else INTERRUPTED
+
+
+def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
+    return saltus.simulate(
+        _load(chosen),
+        q=dict(chosen.q),
+        v=dict(chosen.v),
+        duration=chosen.duration,
+        h=chosen.h,
+        law=saltus.ImpactLaw[chosen.law],
+        order=saltus.ImpactOrder[chosen.order],
+        certify=True,
+        collisions=not chosen.no_collisions,
+        record_every=chosen.record_every,
+        record_contacts=chosen.contacts,
+    )
 
 
 def info(chosen: argparse.Namespace) -> int:

@@ -23,7 +23,7 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
+from saltus.trajectory import CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
 
 if TYPE_CHECKING:
     import h5py
@@ -116,6 +116,8 @@ def _write(run: Trajectory, file: h5py.File) -> None:
         file[name] = getattr(run, name)
     file["impulses"] = run.impulses
     file["settlings"] = run.settlings
+    if run.recorded_contacts is not None:
+        file["contacts"] = run.recorded_contacts
     # The law by name, so that other programs can read it.
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
@@ -147,6 +149,8 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
+    if "contacts" in file:
+        arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
@@ -195,6 +199,7 @@ def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> No
 
 def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:
     impulses = np.zeros(len(stored), IMPULSE)  # older files say nothing of friction
+    impulses["point"] = impulses["normal"] = np.nan  # nor where impulses act
     for name in stored.dtype.names or ():
         impulses[name] = stored[name]
     return impulses

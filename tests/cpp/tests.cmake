@@ -78,6 +78,7 @@ set(SALTUS_TEST_variational
 )
 set(SALTUS_TEST_rollout
   rollout/test_batch.cpp
+  rollout/test_contacts.cpp
   rollout/test_simulate.cpp
 )
 set(SALTUS_TEST_urdf

@@ -75,6 +75,10 @@ PREDICTED = {
         "both at once: cue -0.400000, targets [1.2, -0.69282]",
         "five in a line: unique, A4, at most 10 impulses",
     ],
+    "where_it_stands": [
+        "the cube slides 0.042 m",
+        "the floor bears at the end at x = 0.114 m",
+    ],
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }
 ARGUMENTS = {"compare_engines": ["--quick"]}
