@@ -153,6 +153,9 @@ void bind_lists(py::class_<Model>& c) {
       .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
       .def("contact_properties", &Model::contact_properties, py::arg("pair"),
            "ContactProperties of the materials that meet in the pair of this number.")
+      .def_property_readonly(
+          "default_contact", [](const Model& m) { return m->description->materials.standard; },
+          "ContactProperties of all pairs that nothing else is said of; None where nothing is said")
       .def("pair_kinds", &Model::pair_kinds,
            "How many pairs there are of each two kinds of shape, by their names in alphabetical "
            "order.")
@@ -172,19 +175,34 @@ void bind_lists(py::class_<Model>& c) {
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.
 
-Attributes
+Parameters
 ----------
 restitution : float
     e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
 friction : float
     Coulomb's mu >= 0.
+
+Raises
+------
+ModelError
+    On values out of their range.
 )";
 
 void bind_contact_properties(py::module_& m) {
   using P = ContactProperties;
   py::class_<P>(m, "ContactProperties", contact_properties_doc)
+      .def(py::init([](double restitution, double friction) {
+             const P properties{restitution, friction};
+             check_properties(properties, "two bodies");
+             return properties;
+           }),
+           py::kw_only(), py::arg("restitution") = P{}.restitution,
+           py::arg("friction") = P{}.friction)
       .def_readonly("restitution", &P::restitution)
       .def_readonly("friction", &P::friction)
+      .def(
+          "__eq__", [](const P& a, const P& b) { return a == b; }, py::arg("other"),
+          py::is_operator())
       .def("__repr__",
            [](const P& p) {
              return "ContactProperties(restitution=" +

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 
@@ -103,6 +104,30 @@ def test_info(tmp_path):
     assert "root_x" in run_cli("info", chain, "--floating").stdout
 
 
+def lone_ball() -> str:
+    """Return a ball of radius 0.1 that nothing holds, as URDF text."""
+    joint_to_end = r'  <joint name="swing_0".*?</joint>\n'
+    text = re.sub(joint_to_end, "", saltus.scenes.cradle(1, sways=False, radius=0.1), flags=re.S)
+    return text.replace('  <link name="frame"/>\n', "").replace('xyz="0 0 -1"', 'xyz="0 0 0"')
+
+
+def test_a_robot_is_dropped_on_a_floor_in_one_line(tmp_path):
+    path, out = tmp_path / "ball.urdf", tmp_path / "run.h5"
+    path.write_text(lone_ball())
+    drop = ("--floating", "--floor", "--set", "root_z=0.6")
+    done = run_cli("simulate", path, *drop, "--contact", "0,0.5", "--duration", "1", "--out", out)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    run = saltus.load(out)
+    assert run.column("root_z")[-1] == pytest.approx(0.1, abs=1e-9)
+    assert run.model.default_contact == saltus.ContactProperties(restitution=0, friction=0.5)
+    assert run.model.pair_names == ["ball_0 ~ floor"]
+    info = run_cli("info", path, "--floor", "--floating", "--contact", "0.3,0.5")
+    assert info.stderr == ""
+    assert "default contact: restitution 0.3, friction 0.5" in info.stdout
+    assert_one_line(run_cli("simulate", path, *drop), 0, "ModelWarning", "--contact 0,0.5")
+
+
 def test_info_tells_pairs_of_shapes_from_the_gaps_of_their_parts():
     box = saltus.urdf_dir() / "box_on_edge.urdf"
     plain = run_cli("info", box).stdout
@@ -153,6 +178,10 @@ SIMULATE = ("simulate", CRADLE, "--duration", "1")
         ((*SIMULATE, "--plot", "run.nonsense"), ["run.nonsense"]),
         ((*SIMULATE, "--plot-impacts", "/nowhere/run.png"), ["/nowhere/run.png"]),
         ((*SIMULATE, "--plot-impacts", "run.nonsense"), ["run.nonsense"]),
+        ((*SIMULATE, "--contact", "0.5"), ["'0.5' is not of the form E,MU", "0,0.5"]),
+        ((*SIMULATE, "--contact", "0,much"), ["'0,much' is not two numbers"]),
+        ((*SIMULATE, "--contact", "1.5,0"), ["'1.5,0'", "restitution 1.5; it is in [0, 1]"]),
+        ((*SIMULATE, "--contact", "0,-1"), ["friction -1"]),
         (("fly",), ["fly"]),
         ((), ["COMMAND"]),
     ],
