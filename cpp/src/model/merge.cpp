@@ -221,11 +221,14 @@ void append(const Items& from, Items& to) {
 
 void warn_of_gravity(const ModelDescription& other, ModelDescription& ours) {
   if (ours.gravity == other.gravity) return;
-  std::ostringstream text;
-  text << "gravity of " << quoted(other.name) << " is (" << other.gravity.transpose()
-       << ") and not used: that of " << quoted(ours.name) << " holds, (" << ours.gravity.transpose()
-       << ")";
-  ours.warnings.push_back(text.str());
+  const auto show = [](const Vec3& g) {
+    std::ostringstream text;
+    text << "(" << g[0] << " " << g[1] << " " << g[2] << ")";
+    return text.str();
+  };
+  ours.warnings.push_back("gravity of " + quoted(other.name) + " is " + show(other.gravity) +
+                          " and not used: that of " + quoted(ours.name) + " holds, " +
+                          show(ours.gravity));
 }
 
 }  // namespace

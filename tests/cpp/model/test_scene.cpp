@@ -152,8 +152,8 @@ TEST(AddFloor, MistakesAreNamedAndNothingIsAdded) {
 }
 
 std::string warning_of(const ModelBuilder& builder) {
-  const std::vector<std::string>& all = builder.build()->warnings;
-  return all.empty() ? "" : all.back();
+  const Model model = builder.build();
+  return model->warnings.empty() ? "" : model->warnings.back();
 }
 
 TEST(Warnings, TellOfFreeBodiesOnFloorsThatNothingIsSaidOf) {
