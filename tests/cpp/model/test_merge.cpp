@@ -91,7 +91,7 @@ TEST(Add, ARobotRidesOnABody) {
   other.links[0].inertia = solid_box(4, {0.1, 0.1, 0.1});  // the base, which counts here
   world.add(other, {.parent = "ball", .X = X}).set_default_contact({0, 0});
   const Model model = world.build();
-  const VecX q = VecX::Zero(model.n_q());
+  const VecX q = model.state().q;
   EXPECT_DOUBLE_EQ(model.mass_matrix(q)(0, 0), 1 + 2 + 0.5 + 4);
   EXPECT_NEAR(model.X_WL(q, model.link("arm")).p.z(), 0.6, 1e-15);
   expect_error([&] { world.add(ball().description(), {.prefix = "b_", .parent = "ball"}); },
@@ -189,7 +189,7 @@ TEST(Add, FiltersAndHalfSpacesOfTheRootGoAlong) {
   ASSERT_EQ(model->pairs.size(), 2);
   EXPECT_EQ(between(model, "a_ball ~ a_floor"), (ContactProperties{0, 0.5}));
   EXPECT_NO_THROW(between(model, "a_ball ~ a_wall"));
-  EXPECT_NEAR(model.gaps(VecX::Zero(model.n_q())).phi[0], -0.1, 1e-15);  // both moved
+  EXPECT_NEAR(model.gaps(model.state().q).phi[0], -0.1, 1e-15);  // both moved
 }
 
 TEST(Add, TheGravityOfTheWorldHoldsAndAWarningSaysSo) {

@@ -41,7 +41,7 @@ TEST(AddBody, IsALinkAShapeAndAJoint) {
   EXPECT_EQ(a->joints[0].name, "cube");
   EXPECT_EQ(a->coordinates[0].name, "cube_x");
   EXPECT_EQ(a->shapes[0].name, "cube");
-  const VecX q = VecX::LinSpaced(a.n_q(), 0.1, 0.6);
+  const VecX q = a.state({{"cube_x", 0.1}, {"cube_y", 0.2}, {"cube_z", 0.3}}).q;
   EXPECT_EQ(a.mass_matrix(q), b.mass_matrix(q));
   EXPECT_EQ(a.X_WL(q, 1).R, b.X_WL(q, 1).R);
   EXPECT_EQ(a.X_WL(q, 1).p, b.X_WL(q, 1).p);
@@ -132,7 +132,7 @@ TEST(AddFloor, EachHasItsOwnProperties) {
   builder.set_contact("ice", "steel", {0, 0.05});
   EXPECT_EQ(between(builder.build(), "a ~ floor"), (ContactProperties{0, 0.05}));
   EXPECT_EQ(between(builder.build(), "a ~ wall"), (ContactProperties{0, 0.05}));
-  EXPECT_NEAR(builder.build().gaps(VecX::Zero(model.n_q())).phi.maxCoeff(), 9 - 0.1, 1e-12);
+  EXPECT_NEAR(model.gaps(model.state().q).phi.maxCoeff(), 9 - 0.1, 1e-12);
 }
 
 TEST(AddFloor, MistakesAreNamedAndNothingIsAdded) {

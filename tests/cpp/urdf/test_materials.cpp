@@ -90,7 +90,7 @@ TEST(UrdfMaterials, TheMassOfTheRootCountsWhereItRides) {
   const double mass = base.description().links[0].inertia.mass;
   ASSERT_GT(mass, 0);
   const Model model = builder.add(base.description(), {.parent = "cart"}).build();
-  EXPECT_DOUBLE_EQ(model.mass_matrix(VecX::Zero(model.n_q()))(0, 0), 1 + mass);
+  EXPECT_DOUBLE_EQ(model.mass_matrix(model.state().q)(0, 0), 1 + mass);
 }
 
 }  // namespace
