@@ -53,7 +53,7 @@ def test_options_of_the_model_are_kept(tmp_path):
     again = saltus.load(tmp_path / "run.h5")
     assert_same(run, again)
     assert again.options.max_impacts == 77
-    assert again.model.n_q == 8
+    assert again.model.n_q == 9
     assert again.model.gravity[2] == -1.62
 
 

@@ -81,7 +81,7 @@ TEST(Add, TwoRobotsStandInOneWorld) {
   EXPECT_NEAR(model.mass_matrix(q)(0, 0), m, 1e-14 * m);
   EXPECT_EQ(model.mass_matrix(q)(0, 1), 0);
   EXPECT_NO_THROW(between(model, "a_hand ~ b_hand"));  // a group is one robot's
-  EXPECT_EQ(model->pairs.count(0, 3), 1);  // a_arm and b_hand
+  EXPECT_EQ(model->pairs.count(0, 3), 1);              // a_arm and b_hand
 }
 
 TEST(Add, ARobotRidesOnABody) {

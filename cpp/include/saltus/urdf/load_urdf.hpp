@@ -3,7 +3,7 @@
 // urdfdom parses; what it lets pass or drops (negative mass, zero axis, unknown mimic, a joint that
 // closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
 // 1.2 are read alike. Beyond URDF:
-//   * joints of type "spherical" or "ball" are three revolutes (yaw, pitch, roll);
+//   * joints of type "spherical" or "ball": a unit quaternion;
 //   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is the cylinder's, along
 //     z, without the two half balls;
 //   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
