@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
@@ -20,7 +19,6 @@ from saltus._core import (
     JointType,
     MeshUse,
     Model,
-    ModelBuilder,
     ModelError,
     StepOptions,
     TreeSolver,
@@ -28,7 +26,7 @@ from saltus._core import (
     read_urdf,
 )
 from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
-from saltus.urdf import ModelWarning
+from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
     import h5py
@@ -179,7 +177,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             contact=_contact(file),
             floor=bool(file.attrs.get("floor", False)),
         )
-        model = _build_quietly(builder)
+        model = build_quietly(builder)
         if not pairs and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
     if model is not None:
@@ -202,13 +200,6 @@ def _contact(file: h5py.File) -> ContactProperties | None:
     return ContactProperties(
         restitution=file.attrs["restitution"].item(), friction=file.attrs["friction"].item()
     )
-
-
-def _build_quietly(builder: ModelBuilder) -> Model:
-    """Build without the warnings that were issued when the model was made."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ModelWarning)
-        return builder.build()
 
 
 def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> None:
@@ -283,7 +274,7 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
             "floor": floor,
         }
         try:
-            again = _build_quietly(read_urdf(model.source, **options))
+            again = build_quietly(read_urdf(model.source, **options))
         except ModelError:
             continue
         if _parts(again if model.n_pairs else again.without_collisions()) == wanted:

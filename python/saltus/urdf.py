@@ -16,6 +16,7 @@ from saltus._core import (
     JointType,
     MeshUse,
     Model,
+    ModelBuilder,
     ModelError,
     TreeSolver,
     read_urdf,
@@ -35,6 +36,13 @@ def issue_warnings(texts: Sequence[str]) -> None:
         level, frame = level + 1, frame.f_back
     for text in texts:
         warnings.warn(text, ModelWarning, stacklevel=level)
+
+
+def build_quietly(builder: ModelBuilder) -> Model:
+    """Build without the warnings that were issued when the model was made before."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)
+        return builder.build()
 
 
 def load_urdf(
