@@ -114,8 +114,8 @@ VecX from_mapping(const py::object& x, const Model& model, const std::string& wh
   for (const py::handle item : x.attr("items")()) {
     const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
     if (!py::isinstance<py::str>(key)) {
-      throw ModelError(what + " has the key " + show(key) + "; keys are names of " + numbers.plural +
-                       ": " + list_names(numbers.names));
+      throw ModelError(what + " has the key " + show(key) + "; keys are names of " +
+                       numbers.plural + ": " + list_names(numbers.names));
     }
     set_entry(key.cast<std::string>(), value, what, numbers, model, out, is_set);
   }

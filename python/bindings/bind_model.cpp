@@ -161,6 +161,9 @@ void bind_lists(py::class_<Model>& c) {
       .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
       .def("contact_properties", &Model::contact_properties, py::arg("pair"),
            "ContactProperties of the materials that meet in the pair of this number.")
+      .def_property_readonly(
+          "default_contact", [](const Model& m) { return m->description->materials.standard; },
+          "ContactProperties of all pairs that nothing else is said of; None where nothing is said")
       .def("pair_kinds", &Model::pair_kinds,
            "How many pairs there are of each two kinds of shape, by their names in alphabetical "
            "order.")
@@ -183,19 +186,34 @@ void bind_lists(py::class_<Model>& c) {
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.
 
-Attributes
+Parameters
 ----------
 restitution : float
     e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
 friction : float
     Coulomb's mu >= 0.
+
+Raises
+------
+ModelError
+    On values out of their range.
 )";
 
 void bind_contact_properties(py::module_& m) {
   using P = ContactProperties;
   py::class_<P>(m, "ContactProperties", contact_properties_doc)
+      .def(py::init([](double restitution, double friction) {
+             const P properties{restitution, friction};
+             check_properties(properties, "two bodies");
+             return properties;
+           }),
+           py::kw_only(), py::arg("restitution") = P{}.restitution,
+           py::arg("friction") = P{}.friction)
       .def_readonly("restitution", &P::restitution)
       .def_readonly("friction", &P::friction)
+      .def(
+          "__eq__", [](const P& a, const P& b) { return a == b; }, py::arg("other"),
+          py::is_operator())
       .def("__repr__",
            [](const P& p) {
              return "ContactProperties(restitution=" +
@@ -253,9 +271,7 @@ void bind_model(py::module_& m) {
           docs::model_mass_matrix, py::arg("q"))
       .def(
           "gaps",
-          [](const Model& model, const Coordinates& q) {
-            return model.gaps(to_vector(q, model));
-          },
+          [](const Model& model, const Coordinates& q) { return model.gaps(to_vector(q, model)); },
           docs::model_gaps, py::arg("q"))
       .def("kinetic_energy", &Model::kinetic_energy, "[J] at this state.", py::arg("state"))
       .def(
@@ -267,8 +283,7 @@ void bind_model(py::module_& m) {
       .def(
           "pose",
           [](const Model& model, const Coordinates& q, const NameOrIndex& link) {
-            return model.X_WL(to_vector(q, model),
-                              to_index(link, names_of(model->links), "link"));
+            return model.X_WL(to_vector(q, model), to_index(link, names_of(model->links), "link"));
           },
           docs::model_pose, py::arg("q"), py::arg("link"));
 }

@@ -146,6 +146,13 @@ def _add_info(commands_of: Commands[Parser]) -> None:
 def _add_loading(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--floating", action="store_true", help="the root link is free instead of fixed")
+    add("--floor", action="store_true", help="a floor at z = 0, unless the file has it")
+    add(
+        "--contact",
+        metavar="E,MU",
+        type=commands.contact,
+        help="restitution and friction where the file says nothing of two materials, as in 0,0.5",
+    )
     add("--srdf", metavar="FILE", help="SRDF file that says which links never collide")
     add("--no-meshes", action="store_true", help="collision meshes are not used")
 

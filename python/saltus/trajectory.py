@@ -67,7 +67,7 @@ def index_of(
         return list(names).index(name)
     hint = ""
     if name in others:
-        hint = f" (\"{name}\" is a column of {'v and p' if of == 'q' else 'q'})"
+        hint = f' ("{name}" is a column of {"v and p" if of == "q" else "q"})'
     raise ModelError(f'no {kind} "{name}"{hint}; there are {", ".join(names)}')
 
 

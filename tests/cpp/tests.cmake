@@ -46,8 +46,11 @@ set(SALTUS_TEST_model
   model/test_filter.cpp
   model/test_golden.cpp
   model/test_materials.cpp
+  model/test_merge.cpp
   model/test_model.cpp
   model/test_pairs.cpp
+  model/test_scene.cpp
+  model/test_solids.cpp
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational

@@ -33,6 +33,10 @@ PREDICTED = {
     ],
     "cradle_of_thousand": ["at 0.5046 s 999 impulses of 0.9366 N s"],
     "derivatives": ["L_vv[1, 1] = 1.001 kg m^2"],
+    "drop_a_box": [
+        "meets the floor at 0.319275 s",
+        "lies at a height of 0.100000 m, at rest: True",
+    ],
     "fig3": ["the right ball reaches 0.9356 m/s"],
     "galton_board": [
         "1010 pairs: 5 balls with 200 pins and 2 walls each",

@@ -57,6 +57,10 @@ struct UrdfOptions {
   /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
   /// Half-spaces stay watched; links that the robot has not are named in a warning.
   std::optional<std::string> srdf = {};
+  /// The default contact, in place of the file's own `<contact>` without materials.
+  std::optional<ContactProperties> contact = {};
+  /// Adds the half-space z <= 0, as ModelBuilder::add_floor does, unless the file has it.
+  bool floor = false;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).
