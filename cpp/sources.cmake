@@ -11,6 +11,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/mass_model.cpp
   cpp/src/lagrangian/packed/arc_rate.cpp
   cpp/src/lagrangian/packed/ball_arc.cpp
+  cpp/src/lagrangian/packed/ball_matrix.cpp
   cpp/src/lagrangian/packed/ball_place.cpp
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp

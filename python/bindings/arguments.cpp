@@ -42,8 +42,7 @@ void append_numbers(const py::handle& x, const std::string& entry, std::vector<d
     out.insert(out.end(), q.coeffs().begin(), q.coeffs().end());
   } else if (py::hasattr(x, "as_quat")) {  // SciPy's Rotation: x y z w
     append_numbers(x.attr("as_quat")(), entry, out);
-  } else if (py::isinstance<py::sequence>(x) || py::hasattr(x, "tolist")) {
-    if (py::isinstance<py::str>(x)) to_number(x, entry);
+  } else if (py::isinstance<py::sequence>(x) && !py::isinstance<py::str>(x)) {
     for (const py::handle each : x) append_numbers(each, entry, out);
   } else {
     out.push_back(to_number(x, entry));

@@ -105,9 +105,8 @@ void bind_materials(py::class_<ModelBuilder>& c) {
           py::arg("friction") = ContactProperties{}.friction);
 }
 
-}  // namespace
-
-void bind_model_builder(py::module_& m) {
+/// What a builder's methods take.
+void bind_parts(py::module_& m) {
   py::class_<Mimic>(m, "Mimic", docs::mimic)
       .def(py::init([](const std::string& joint, double multiplier, double offset) {
              return Mimic{joint, multiplier, offset};
@@ -123,7 +122,12 @@ void bind_model_builder(py::module_& m) {
       .value("excluded", AdjacentLinks::excluded)
       .value("watched", AdjacentLinks::watched)
       .finalize();
+}
 
+}  // namespace
+
+void bind_model_builder(py::module_& m) {
+  bind_parts(m);
   m.def("solid_inertia", &solid_inertia, docs::solid_inertia, py::arg("mass"), py::arg("shape"));
   m.def("volume", &volume, docs::volume, py::arg("shape"));
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -126,32 +125,26 @@ def simulate_batch(
             raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
     options = StepOptions(h, law, collisions, **bounds)
     core = _core.BatchTrajectory(model)
-    with progress_bar(progress, len(states), "runs") as report, keeping_run(core):
-        _core.simulate_batch(
-            core,
-            states,
-            duration,
-            options=options,
-            record_every=record_every,
-            record_contacts=record_contacts,
-            threads=threads or 0,
-            on_failure=on_failure,
-            progress=report,
-        )
+    with progress_bar(progress, len(states), "runs") as report:
+        try:
+            _core.simulate_batch(
+                core,
+                states,
+                duration,
+                options=options,
+                record_every=record_every,
+                record_contacts=record_contacts,
+                threads=threads or 0,
+                on_failure=on_failure,
+                progress=report,
+            )
+        except (ModelError, StepError) as error:  # of a run: it has its rows, as in simulate
+            if core.failures:
+                keep_rows(error, Trajectory.from_core(core.run(min(core.failures))))
+            raise
     batch = BatchTrajectory.from_core(core)
     _tell(batch)
     return batch
-
-
-@contextmanager
-def keeping_run(core: _core.BatchTrajectory) -> Iterator[None]:
-    """Give the error of a run the rows before it, as `simulate` does."""
-    try:
-        yield
-    except (ModelError, StepError) as error:
-        if core.failures:
-            keep_rows(error, Trajectory.from_core(core.run(min(core.failures))))
-        raise
 
 
 class _Space(NamedTuple):

@@ -12,7 +12,8 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import ImpactLaw, Model, StepOptions
-from saltus.trajectory import Array, Trajectory, check_array, index_of
+from saltus.columns import check_array, index_of
+from saltus.trajectory import Array, Trajectory
 
 
 @dataclass(frozen=True, eq=False, repr=False)

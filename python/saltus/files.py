@@ -25,7 +25,8 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.trajectory import CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
+from saltus.events import CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, SETTLING
+from saltus.trajectory import Trajectory
 from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
@@ -287,13 +288,12 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
     return None
 
 
-def _parts(model: Model) -> tuple[list[object], ...]:
+def _parts(model: Model) -> tuple[object, ...]:
     # A mesh that is in no pair has no part in the motion, and its file may be gone.
     shapes = [s.name for s in model.shapes if not isinstance(s.shape, Convex)]
     names = model.link_names, model.joint_names, model.coordinate_names, shapes
-    if model.n_pairs > LISTED_PAIRS:
-        pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
-    else:
+    pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
+    if model.n_pairs <= LISTED_PAIRS:
         pairs = [
             (name, repr(model.contact_properties(i))) for i, name in enumerate(model.pair_names)
         ]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import TYPE_CHECKING, TypedDict
 
 from numpy.typing import ArrayLike
@@ -122,16 +122,21 @@ def simulate(
         raise ModelError("give either state or q and v, not both")
     options = StepOptions(h, law, collisions, **bounds)
     core = _core.Trajectory(model)
-    with progress_bar(progress, duration, "s") as report, keeping_rows(core):
-        _core.simulate(
-            core,
-            state,
-            duration,
-            options=options,
-            record_every=record_every,
-            record_contacts=record_contacts,
-            progress=report,
-        )
+    with progress_bar(progress, duration, "s") as report:
+        try:
+            _core.simulate(
+                core,
+                state,
+                duration,
+                options=options,
+                record_every=record_every,
+                record_contacts=record_contacts,
+                progress=report,
+            )
+        except BaseException as error:
+            if len(core.t):  # else nothing ran
+                keep_rows(error, Trajectory.from_core(core))
+            raise
     if not core.complete:
         done, end = core.t[-1] - state.t, duration
         print(
@@ -139,17 +144,6 @@ def simulate(
             file=sys.stderr,
         )
     return Trajectory.from_core(core)
-
-
-@contextmanager
-def keeping_rows(core: _core.Trajectory) -> Iterator[None]:
-    """Give what is raised the rows before it, as `trajectory`, and say so in its message."""
-    try:
-        yield
-    except BaseException as error:
-        if len(core.t):  # else nothing ran
-            keep_rows(error, Trajectory.from_core(core))
-        raise
 
 
 def keep_rows(error: BaseException, run: Trajectory) -> None:
@@ -175,24 +169,33 @@ def check_types(model: object, bounds: Mapping[str, object], caller: str) -> Non
             raise TypeError(f'{caller}() has no argument "{name}"; bounds of a step are {names}')
 
 
-@contextmanager
 def progress_bar(
     progress: bool | Progress | None, total: float, unit: str
-) -> Iterator[Progress | None]:
-    """Give the function that the compiled part is to call with the part done."""
+) -> AbstractContextManager[Progress | None]:
+    """Give, within `with`, the function that the compiled part is to call with the part done."""
     if progress is False:
-        yield None
-        return
+        return nullcontext()
     if callable(progress):
-        yield progress
-        return
-    always = progress is True
-    with tqdm(
-        total=total,
-        unit=unit,
-        bar_format=BAR_FORMAT,
-        delay=0.0 if always else BAR_DELAY,
-        disable=False if always else None,  # None: only where stderr is a terminal
-        leave=always,
-    ) as bar:
-        yield lambda part: bar.update(part * total - bar.n)
+        return nullcontext(progress)
+    return Bar(total, unit, always=progress is True)
+
+
+class Bar:
+    """A bar on stderr; a class, as `contextlib.contextmanager` writes to exceptions it lets out."""
+
+    def __init__(self, total: float, unit: str, *, always: bool) -> None:
+        self.total = total
+        self.bar = tqdm(
+            total=total,
+            unit=unit,
+            bar_format=BAR_FORMAT,
+            delay=0.0 if always else BAR_DELAY,
+            disable=False if always else None,  # None: only where stderr is a terminal
+            leave=always,
+        )
+
+    def __enter__(self) -> Progress:
+        return lambda part: self.bar.update(part * self.total - self.bar.n)
+
+    def __exit__(self, *_: object) -> None:
+        self.bar.close()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,63 +11,13 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import Impact, ImpactLaw, Model, ModelError, State, StepOptions
+from saltus.columns import check_array, index_of
+from saltus.events import CONTACT, IMPACT, IMPULSE, SETTLING, names_of_pairs
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = npt.NDArray[np.float64]
-
-IMPACT = np.dtype(
-    {
-        "names": ["t", "first", "count", "contacts", "law", "fallback"],
-        "formats": ["f8", "i8", "i8", "i4", "u1", "?"],
-    }
-)
-SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-ACTED: list[Any] = [
-    ("pair", "i4"),
-    ("lambda", "f8"),
-    ("tangential", "f8", (3,)),
-    ("point", "f8", (3,)),
-    ("normal", "f8", (3,)),
-]
-IMPULSE = np.dtype([("impact", "i8"), *ACTED])
-CONTACT = np.dtype([("row", "i8"), ("t", "f8"), ("impact", "i8"), *ACTED])
-
-LISTED_PAIRS = 100_000
-"""Models with more pairs have no list of their names in a trajectory."""
-
-
-def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:
-    """Name the pairs that `events["pair"]` refer to, counting anew where they are too many."""
-    if model.n_pairs <= LISTED_PAIRS:
-        return tuple(model.pair_names)
-    numbers = np.unique(np.concatenate([event["pair"] for event in events]))
-    for event in events:
-        event["pair"] = np.searchsorted(numbers, event["pair"])
-    return tuple(model.pair_name(int(number)) for number in numbers)
-
-
-def check_array(of: str) -> str:
-    """Return the name of an array of columns; raise ModelError on another."""
-    if of not in ("q", "v", "p"):
-        raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
-    return of
-
-
-def index_of(
-    name: str, of: str, coordinate_names: Sequence[str], velocity_names: Sequence[str]
-) -> int:
-    """Return the column of q, v or p that has a name; raise ModelError where none has it."""
-    kind, names, others = "coordinate", coordinate_names, velocity_names
-    if of != "q":
-        kind, names, others = "velocity", velocity_names, coordinate_names
-    if name in names:
-        return list(names).index(name)
-    hint = ""
-    if name in others:
-        hint = f' ("{name}" is a column of {"v and p" if of == "q" else "q"})'
-    raise ModelError(f'no {kind} "{name}"{hint}; there are {", ".join(names)}')
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,7 +59,9 @@ class Trajectory:
         impacts and the sums that held pairs closed over each step (`ContactImpulse`). "row" (the
         first recorded row at or after the end of its step), "t" [s] (of the impact, or the end of
         the step), "impact" (row of `impacts`; -1: what held a pair closed), and "pair", "lambda",
-        "tangential", "point", "normal" as in `impulses`. ModelError where they were not recorded.
+        "tangential", "point", "normal" as in `impulses`. Without friction what ends the bounces of
+        a pair that settles is among them, and pulls: "lambda" < 0. ModelError where they were not
+        recorded.
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
     certificates : tuple of str

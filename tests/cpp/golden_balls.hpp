@@ -44,8 +44,8 @@ inline Model golden_ball_model(const Json& system) {
       const VecX x = joint["quat"].vector();
       spec.X_PJ.R = Quaternion(x[3], x[0], x[1], x[2]).normalized().toRotationMatrix();
     }
-    builder.add_link({spec.child,
-                      {joint["mass"].number(), joint["com"].vector(), joint["inertia"].matrix()}});
+    builder.add_link(
+        {spec.child, {joint["mass"].number(), joint["com"].vector(), joint["inertia"].matrix()}});
     builder.add_joint(spec);
   }
   return builder.build();

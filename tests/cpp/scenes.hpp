@@ -9,7 +9,8 @@
 
 namespace saltus::scenes {
 
-/// How far q is from the neutral configuration along one velocity, of a ball the turn about an axis.
+/// How far q is from the neutral configuration along one velocity, of a ball the turn about an
+/// axis.
 inline double moved(const Model& model, const VecX& q, const std::string& velocity) {
   return model.difference(model.neutral(), q)[model.velocity_index(velocity)];
 }

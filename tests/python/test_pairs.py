@@ -64,7 +64,7 @@ def both(a, b) -> saltus.Model:
         builder.add_link(name, saltus.solid_sphere(1.0, 0.1))
         builder.add_joint(name, saltus.JointType.floating, parent="world", child=name)
         builder.add_shape(name, shape)
-    return builder.build()
+    return builder.set_default_contact(restitution=1, friction=0).build()
 
 
 def test_the_table_has_all_27_pairs():

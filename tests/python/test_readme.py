@@ -89,7 +89,9 @@ def test_dialogues_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
 
 def test_urdf_of_the_manual_loads():
     (text,) = blocks(ROOT / "python" / "docs" / "urdf.md", "xml")
-    assert saltus.load_urdf(text).pair_names == ["ball ~ floor", "ball ~ ramp", "ball ~ world"]
+    model = saltus.load_urdf(text)
+    assert model.pair_names == ["ball ~ floor", "ball ~ ramp", "ball ~ world"]
+    assert not model.warnings
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "urdf").glob("*.urdf")), ids=by_name)

@@ -19,11 +19,9 @@ import pytest
 
 import saltus
 
-pin = pytest.importorskip(
-    "pinocchio", reason="Pinocchio is not installed: pip install 'saltus[robots]'"
-)
+NEEDED = "Pinocchio is not installed: pip install 'saltus[robots]'"
+pin = pytest.importorskip("pinocchio", reason=NEEDED)
 TOLERANCE = 1e-12
-
 
 # What is wrong with files of example-robot-data.
 REFUSED = {
@@ -61,10 +59,7 @@ ROBOTS = {
         warning='link "base" has principal moments',
     ),
     "talos": Robot(
-        "talos_data/robots/talos_reduced.urdf",
-        32 + 6,
-        floating=True,
-        srdf="talos_data/srdf/talos.srdf",
+        "talos_data/robots/talos_reduced.urdf", 38, floating=True, srdf="talos_data/srdf/talos.srdf"
     ),
     "tiago": Robot("tiago_description/robots/tiago.urdf", 48),
     "ur5": Robot(
@@ -173,21 +168,18 @@ class Twin:
         return C.T @ pin.rnea(self.theirs, self.data, self.configuration(q), C @ v, C @ a)
 
     def gravity(self, q: np.ndarray) -> np.ndarray:
-        return self.C(q).T @ pin.computeGeneralizedGravity(
-            self.theirs, self.data, self.configuration(q)
-        )
+        own = self.configuration(q)
+        return self.C(q).T @ pin.computeGeneralizedGravity(self.theirs, self.data, own)
 
     def gravity_bound(self, M: np.ndarray) -> np.ndarray:
         return np.linalg.norm(self.ours.gravity) * np.sqrt(self.mass * M.diagonal())
 
 
 def random_configurations(name: str, count: int = 20):
-    rng = np.random.default_rng(sum(map(ord, name)))
-    model = load(name)
-    n = model.n_v
+    rng, model = np.random.default_rng(sum(map(ord, name))), load(name)
     for _ in range(count):
-        q = model.integrate(model.neutral(), rng.uniform(-1.4, 1.4, n))
-        yield q, rng.uniform(-2, 2, n), rng.uniform(-5, 5, n)
+        dv, v, a = (rng.uniform(-most, most, model.n_v) for most in (1.4, 2, 5))
+        yield model.integrate(model.neutral(), dv), v, a
 
 
 def assert_close(name: str, ours: np.ndarray, theirs: np.ndarray, bound: np.ndarray) -> None:

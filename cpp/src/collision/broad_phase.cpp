@@ -51,7 +51,8 @@ double sway(const Tree& tree, const Kinematics& kin, const VecRef& dq, const Bro
   if (P < 0) return 0;
   double own = 0;
   if (tree.joint[P].turns()) {
-    const double off = tree.joint[P].is_ball() ? c_W.norm() : c_W.cross(kin.joint[P].R.col(2)).norm();
+    const double off =
+        tree.joint[P].is_ball() ? c_W.norm() : c_W.cross(kin.joint[P].R.col(2)).norm();
     own = std::fmin(change(tree, dq, P), 2) * off;
   }
   const int G = tree.parent[P];

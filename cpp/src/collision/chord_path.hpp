@@ -39,9 +39,7 @@ struct Chord {
     return drive.multiplier * dq[drive.velocity];
   }
   /// [rad] axis times angle of a ball, in the axes of its placement; `joint` is its third
-  Vec3 turn_of_ball(int joint) const {
-    return dq.segment<3>(tree.drive[joint].velocity - 2);
-  }
+  Vec3 turn_of_ball(int joint) const { return dq.segment<3>(tree.drive[joint].velocity - 2); }
   /// R of a ball at s = 0; likewise
   Mat3 start_of_ball(int joint) const {
     return quaternion(ball_of(tree, joint), q).toRotationMatrix();

@@ -121,8 +121,10 @@ void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, 
       const Drive& drive_i = tree.drive[k.joint];
       const Vec6 t_i = twist_of(tree, kin, k, gap.center_W);
       double second = t_i.dot(C_t);
-      if (i < l && are_of_one_ball(tree, k.joint, pair.chain[l].joint)) {  // the mean of both orders
-        const Vec3 w_i = t_i.head<3>(), u_i = t_i.tail<3>(), w_l = t_l.head<3>(), u_l = t_l.tail<3>();
+      if (i < l &&
+          are_of_one_ball(tree, k.joint, pair.chain[l].joint)) {  // the mean of both orders
+        const Vec3 w_i = t_i.head<3>(), u_i = t_i.tail<3>(), w_l = t_l.head<3>(),
+                   u_l = t_l.tail<3>();
         second += 0.5 * gap.n_W.dot(w_l.cross(u_i) - w_i.cross(u_l));
       }
       const double value = drive_i.multiplier * drive_l.multiplier * second;

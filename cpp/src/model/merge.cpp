@@ -163,11 +163,11 @@ void merge_contacts(const std::map<std::string, std::string>& renamed,
   for (const auto& [link, material] : other.materials.of_link) used.insert(material);
   for (const ShapeSpec& shape : other.shapes) used.insert(material_of(other, shape));
   const auto names = [&](const std::string& material) {
-    std::vector<std::string> names;
+    std::vector<std::string> both;
     const auto found = renamed.find(material);
-    if (found != renamed.end()) names.push_back(found->second);
-    if (found == renamed.end() || used.count(material) > 0) names.push_back(material);
-    return names;
+    if (found != renamed.end()) both.push_back(found->second);
+    if (found == renamed.end() || used.count(material) > 0) both.push_back(material);
+    return both;
   };
   for (const auto& [pair, properties] : other.materials.contact) {
     for (const std::string& a : names(pair.first)) {

@@ -24,8 +24,7 @@ void check_array(const std::vector<std::string>& names, const std::string& unit,
   for (Eigen::Index row = 0; row < x.rows(); ++row) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       if (std::isfinite(x(row, i))) continue;
-      text << what << "[" << row << ", \"" << names[i] << "\"] = " << x(row, i)
-           << " is not finite";
+      text << what << "[" << row << ", \"" << names[i] << "\"] = " << x(row, i) << " is not finite";
       throw ModelError(text.str());
     }
   }

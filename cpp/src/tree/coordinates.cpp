@@ -4,6 +4,25 @@
 
 namespace saltus {
 
+namespace {
+
+/// to <- exp(f) from, both x y z w.
+void turn(const Vec3& f, const double* from, double* to) {
+  const Quaternion by = quaternion_exp(f);
+  const double a = by.x(), b = by.y(), c = by.z(), d = by.w();
+  const double x = from[0], y = from[1], z = from[2], w = from[3];
+  const double nx = d * x + a * w + b * z - c * y, ny = d * y + b * w + c * x - a * z;
+  const double nz = d * z + c * w + a * y - b * x, nw = d * w - a * x - b * y - c * z;
+  // both are of length 1 to rounding, and so is their product: one step of Newton's is exact
+  const double length = 1.5 - 0.5 * (nx * nx + ny * ny + nz * nz + nw * nw);
+  to[0] = length * nx;
+  to[1] = length * ny;
+  to[2] = length * nz;
+  to[3] = length * nw;
+}
+
+}  // namespace
+
 void integrate(const Tree& tree, const VecRef& q, double scale, const VecRef& v, VecX& out) {
   if (tree.balls.empty()) {
     out = q + scale * v;
@@ -11,21 +30,15 @@ void integrate(const Tree& tree, const VecRef& q, double scale, const VecRef& v,
   }
   // from ball to ball: the numbers between two of them are in step
   int i = 0, k = 0;
-  const auto add = [&](int count) {
-    out.segment(i, count) = q.segment(i, count) + scale * v.segment(k, count);
-    i += count;
-    k += count;
-  };
+  const double *from = q.data(), *rate = v.data();
+  double* to = out.data();
   for (const Ball& ball : tree.balls) {
-    add(ball.velocity - k);
-    const Quaternion turn = quaternion_exp(scale * v.segment<3>(k));
-    Quaternion end = turn * quaternion(ball, q);
-    end.coeffs() /= end.norm();
-    out.segment<4>(i) = end.coeffs();
+    for (; k < ball.velocity; ++i, ++k) to[i] = from[i] + scale * rate[k];
+    turn(scale * Vec3(rate[k], rate[k + 1], rate[k + 2]), from + i, to + i);
     i += 4;
     k += 3;
   }
-  add(tree.n_v - k);
+  for (; k < tree.n_v; ++i, ++k) to[i] = from[i] + scale * rate[k];
 }
 
 void difference(const Tree& tree, const VecRef& q0, const VecRef& q1, VecX& out) {

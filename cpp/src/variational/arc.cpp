@@ -18,7 +18,7 @@ bool wants_energy(const ArcProblem& a) {
 }
 
 /// Adds c kappa to L. @return false where M is singular
-bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
+bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s, bool keep_scale) {
   Compensation& k = *s.compensation;
   set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, 0, k.M)) return false;
@@ -27,25 +27,16 @@ bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
   k.c = (a.whole * a.whole - a.tau * a.tau) / 24;
   s.L_v += k.c * k.shadow.kappa_v;
   s.L_q += k.c * k.shadow.kappa_q;
+  if (keep_scale) return true;
   s.scale += k.c * (k.shadow.kappa_v + a.tau / 2 * k.shadow.kappa_q).cwiseAbs();
   return true;
 }
 
-/// Writes w, L_v, L_q and scale at v: all that the residual is made of.
-void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
+/// The size of the terms of p_start, by velocity. Needs first_pass.
+void set_scale(const ModelData& model, double tau, ArcScratch& s) {
   const Tree& tree = model.tree;
   const PackedTree& packed = model.packed;
-  integrate(tree, a.q, a.tau / 2, v, s.q);
-  set_coordinates(tree, packed, s.q, s.w);
-  set_rates(tree, packed, v, s.w);
-  place(packed, s.w);
-  move(packed, s.w);
-  first_pass(packed, s.w);
-  s.has_second = false;
-  arc_pass(packed, a.tau, s.w);
-  scale_pass(packed, a.tau, s.w);
-  gather(tree, packed, s.w.arc, 0, s.L_v);
-  gather(tree, packed, s.w.arc, 1, s.L_q);
+  scale_pass(packed, tau, s.w);
   if (packed.one_to_one) {
     gather(tree, packed, s.w.scale, 0, s.scale);
     return;
@@ -57,22 +48,41 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   }
 }
 
+/// Writes w, L_v and L_q at v: all that the residual is made of.
+void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
+  const Tree& tree = model.tree;
+  const PackedTree& packed = model.packed;
+  integrate(tree, a.q, a.tau / 2, v, s.q);
+  set_coordinates(tree, packed, s.q, s.w);
+  set_rates(tree, packed, v, s.w);
+  place(packed, s.w);
+  move(packed, s.w);
+  first_pass(packed, s.w);
+  s.has_second = false;
+  arc_pass(packed, a.tau, s.w);
+  gather(tree, packed, s.w.arc, 0, s.L_v);
+  gather(tree, packed, s.w.arc, 1, s.L_q);
+}
+
 }  // namespace
 
 // The residual is a difference of rounded sums, and `scale` is the size of their terms, per
 // coordinate, so that `converged` means the same for a spinning grain as for a sliding block.
-double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
-                         ArcScratch& s) {
+double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
+                         bool keep_scale) {
   if (!(fastest_turn(model.tree, v, a.tau).angle < 2 * std::numbers::pi)) {
     return std::numeric_limits<double>::infinity();
   }
   evaluate(model, a, v, s);
-  if (a.whole > 0 && (a.tau < a.whole || wants_energy(a)) && !compensate(model, a, s)) {
+  if (!keep_scale) set_scale(model, a.tau, s);
+  const bool compensated = a.whole > 0 && (a.tau < a.whole || wants_energy(a));
+  if (compensated && !compensate(model, a, s, keep_scale)) {
     return std::numeric_limits<double>::infinity();
   }
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) {
     s.r += c.lambda * c.n;
+    if (keep_scale) continue;
     s.scale +=
         std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
   }
@@ -94,8 +104,9 @@ double discrete_energy(const ModelData& model, const ArcProblem& a, const VecX& 
 
 namespace {
 
-double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
-  const double size = momentum_residual(model, a, v, s);
+double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
+                bool keep_scale = false) {
+  const double size = momentum_residual(model, a, v, s, keep_scale);
   return std::max(size, constraint_residual(model, a, v, s));
 }
 
@@ -111,7 +122,9 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   add_constraints(model, a, arc.v, s);
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
-  double after = residual(model, a, arc.v, s);
+  // v has changed by a part of `before`, and so have the terms: a scale is known well enough
+  constexpr double little = 1e-3;
+  double after = residual(model, a, arc.v, s, before < little);
   // Newton's own direction shortens until the residual falls; 2^-12 of a step is no direction
   for (int k = 0; k < 12 && !(after < before) && before > 1e-10; ++k) {
     s.dv /= 2;
@@ -202,7 +215,7 @@ void finish_arc(const ModelData& model, const ArcProblem& a, Arc& arc, const Arc
 
 double arc_energy(const ModelData& model, const ArcProblem& a, const Arc& arc, ArcScratch& s) {
   evaluate(model, a, arc.v, s);
-  if (a.whole > 0) compensate(model, a, s);
+  if (a.whole > 0) compensate(model, a, s, true);
   return discrete_energy(model, a, arc.v, s);
 }
 

@@ -98,8 +98,8 @@ struct ArcScratch {
   PackedProducts products;
   Packed w_end;        ///< written by place_end
   Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
-  VecX q;         ///< (n_q) scratch: where the arc is evaluated, or ends
-  VecX L_v, L_q;  ///< (n_v) of the arc: of balls L_v', L_q'
+  VecX q;              ///< (n_q) scratch: where the arc is evaluated, or ends
+  VecX L_v, L_q;       ///< (n_v) of the arc: of balls L_v', L_q'
   VecX r, scale, dv, x;
 };
 
@@ -127,8 +127,9 @@ inline void set_second_partials(const ModelData& model, ArcScratch& s) {
 ///
 /// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
 /// scaled size, infinity where it is not a number.
+/// @param keep_scale of the evaluation before, whose v was nearly this one
 double momentum_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
-                         ArcScratch& s);
+                         ArcScratch& s, bool keep_scale = false);
 
 /// True where a residual is rounding: at the floor, or small and no longer falling.
 bool is_converged(double residual, double before);

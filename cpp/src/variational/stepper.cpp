@@ -22,8 +22,8 @@ void check_law(const ModelData& model, ImpactLaw law) {
   if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
   for (const JointInfo& joint : model.joints) {
     if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
-    throw ModelError("law compensated is not for floating and spherical joints, as \"" + joint.name +
-                         "\" is; shadow_energy and discrete_energy are",
+    throw ModelError("law compensated is not for floating and spherical joints, as \"" +
+                         joint.name + "\" is; shadow_energy and discrete_energy are",
                      "joint", joint.name);
   }
 }

@@ -67,7 +67,8 @@ World random_world(Random& random) {
                                           "capsule", "box",    "cylinder"};
   for (int k = 0; k < 20; ++k) {
     const Shape shape = random_shape(kinds[random.index(6)], random);
-    world.shapes.push_back(place(shape, carrier(world.tree, random.index(joints + 1) - 1), random.pose(1)));
+    world.shapes.push_back(
+        place(shape, carrier(world.tree, random.index(joints + 1) - 1), random.pose(1)));
   }
   for (int k = random.index(3); k > 0; --k) {
     world.shapes.insert(world.shapes.begin() + random.index(20),

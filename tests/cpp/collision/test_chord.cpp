@@ -51,10 +51,9 @@ using Names = std::pair<std::string, std::string>;
 /// Both orders of a pair of kinds: what moves before what is at rest.
 Scene random_pair(const Names& kinds, int joints, Random& random) {
   const bool exchanged = kinds.second != "half_space" && random.chance(0.5);
-  return random_scene(exchanged ? kinds.second : kinds.first,
-                      exchanged ? kinds.first : kinds.second,
-                      {.joints = joints, .offset = 0.6, .ball = random.chance(0.5) ? 0.5 : 0},
-                      random);
+  return random_scene(
+      exchanged ? kinds.second : kinds.first, exchanged ? kinds.first : kinds.second,
+      {.joints = joints, .offset = 0.6, .ball = random.chance(0.5) ? 0.5 : 0}, random);
 }
 
 class RandomChords : public ::testing::TestWithParam<Names> {};
@@ -65,8 +64,7 @@ TEST_P(RandomChords, FirstHitIsNeitherMissedNorLateNorInvented) {
   while (chords < 300) {
     const Scene scene = random_pair(GetParam(), 1 + random.index(6), random);
     const double size = random.chance(0.2) ? 0.1 : 4;
-    Chord chord{scene, scene.q, random.numbers(scene.tree.n_v, size),
-                random.uniform(-0.02, 0.02)};
+    Chord chord{scene, scene.q, random.numbers(scene.tree.n_v, size), random.uniform(-0.02, 0.02)};
     const double start = chord(0);
     if (start <= 0) continue;
     ++chords;

@@ -14,7 +14,11 @@ struct ArcMomenta {
 /// Everything that an arc is made of, in lanes.
 struct BallArc {
   BallArc(const RandomTree& tree, TreeSolver solver)
-      : t(tree), packed(pack(t.tree, t.mass, solver)), w(packed), J(t.tree, packed), products(packed) {}
+      : t(tree),
+        packed(pack(t.tree, t.mass, solver)),
+        w(packed),
+        J(t.tree, packed),
+        products(packed) {}
 
   ArcMomenta momenta(const VecX& v, double tau) {
     VecX mid(t.tree.n_q), L_v(t.tree.n_v), L_q(t.tree.n_v);

@@ -64,7 +64,8 @@ TEST(BallPartials, ValueIsThatOfMovingPoses) {
     const RandomTree t = varied_ball_tree(k);
     const double L = lagrangian(t.tree, t.mass, t.q, t.v).value;
     // numeric velocities: 1e-12 of the kinetic energy, which is up to 50 times L
-    EXPECT_NEAR(L, naive_lagrangian(t, t.q, t.v), tolerance(t.tree) * (100 + 50 * std::abs(L))) << k;
+    EXPECT_NEAR(L, naive_lagrangian(t, t.q, t.v), tolerance(t.tree) * (100 + 50 * std::abs(L)))
+        << k;
   }
 }
 
@@ -73,7 +74,9 @@ TEST(BallPartials, AreDerivativesAlongVelocities) {
     const RandomTree t = varied_ball_tree(k);
     const auto at = [&](const VecX& q, const VecX& v) { return lagrangian(t.tree, t.mass, q, v); };
     const LagrangianPartials L = at(t.q, t.v);
-    const auto value = [&](const VecX& q, const VecX& v) { return VecX::Constant(1, at(q, v).value); };
+    const auto value = [&](const VecX& q, const VecX& v) {
+      return VecX::Constant(1, at(q, v).value);
+    };
     const auto L_q = [&](const VecX& q, const VecX& v) { return at(q, v).L_q; };
     const auto L_v = [&](const VecX& q, const VecX& v) { return at(q, v).L_v; };
     const double size = std::abs(L.value), most = tolerance(t.tree);

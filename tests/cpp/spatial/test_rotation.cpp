@@ -29,7 +29,8 @@ Mat3 power_series(const Vec3& f, int shift) {
 std::vector<Vec3> turns() {
   std::vector<Vec3> out;
   Random random(1);
-  for (const double angle : {0.0, 1e-12, 1e-5, 1e-2, 0.1, 0.299, 0.301, 0.599, 0.601, 1.0, 3.0, 3.2, 6.2}) {
+  for (const double angle :
+       {0.0, 1e-12, 1e-5, 1e-2, 0.1, 0.299, 0.301, 0.599, 0.601, 1.0, 3.0, 3.2, 6.2}) {
     for (int k = 0; k < 5; ++k) out.push_back(angle * random.unit());
   }
   return out;
@@ -50,9 +51,8 @@ TEST(Rotation, LogarithmIsItsInverse) {
     const Vec3 log = quaternion_log(q);
     EXPECT_LE(log.norm(), std::numbers::pi * (1 + 1e-15));
     // turns by more than pi come back the other way round
-    const Vec3 same = f.norm() > std::numbers::pi
-                          ? Vec3(f * (1 - 2 * std::numbers::pi / f.norm()))
-                          : f;
+    const Vec3 same =
+        f.norm() > std::numbers::pi ? Vec3(f * (1 - 2 * std::numbers::pi / f.norm())) : f;
     EXPECT_LT((log - same).norm(), 4e-15) << f.norm();
     EXPECT_EQ(quaternion_log(Quaternion(-q.coeffs())), log);
   }

@@ -1,4 +1,5 @@
-// Impacts of bodies that turn: symplectic steps, momenta, energies under every law that takes balls.
+// Impacts of bodies that turn: symplectic steps, momenta, energies under every law that takes
+// balls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace {
 /// A free body with an arm on a ball joint; a sphere off the body's centre meets the floor.
 Model lopsided() {
   ModelBuilder b("lopsided");
-  BodyInertia body = solid_box(1.0, Vec3(0.1, 0.2, 0.15)), arm = solid_box(0.4, Vec3(0.05, 0.05, 0.2));
+  BodyInertia body = solid_box(1.0, Vec3(0.1, 0.2, 0.15)),
+              arm = solid_box(0.4, Vec3(0.05, 0.05, 0.2));
   arm.c_J = Vec3(0, 0, 0.25);
   b.add_link({"body", body}).add_link({"arm", arm});
   b.add_joint({.name = "free", .type = JointType::floating, .parent = "world", .child = "body"});
@@ -113,7 +115,8 @@ TEST(BallImpacts, EnergyStaysOverManyImpacts) {
       worst = std::max(worst, std::abs(now - H));
     }
     EXPECT_GT(impacts, 5);
-    EXPECT_LT(worst, (law == ImpactLaw::discrete_energy ? 0.1 : 0.02) * std::abs(H)) << law_name(law);
+    EXPECT_LT(worst, (law == ImpactLaw::discrete_energy ? 0.1 : 0.02) * std::abs(H))
+        << law_name(law);
     EXPECT_NEAR(state.p[0], px, 1e-12);  // the floor has no friction
     EXPECT_NEAR(state.p[1], py, 1e-12);
   }

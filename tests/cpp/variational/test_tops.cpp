@@ -195,8 +195,8 @@ TEST(HeavyTop, KeepsEnergyInABandOverAHundredThousandSteps) {
     band = std::max(band, std::abs(now - H) / T);
     (k < steps / 2 ? early : late) += (now - H) / T / (steps / 2);
   }
-  EXPECT_LT(band, 1e-2);                     // h w = 0.3 rad a step: (h w)^2 / 12
-  EXPECT_LT(std::abs(late - early), 1e-5);   // no trend
+  EXPECT_LT(band, 1e-2);                    // h w = 0.3 rad a step: (h w)^2 / 12
+  EXPECT_LT(std::abs(late - early), 1e-5);  // no trend
   EXPECT_NEAR(state.p.z(), vertical, 1e-12);
 }
 

@@ -102,8 +102,8 @@ SALTUS_EXPORT void put_plane_on_b(const Tree& tree, const Kinematics& kin, const
 SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                     const Gap& gap, Eigen::Ref<VecX> phi_q);
 
-/// Adds the pair's Hessian to `phi_qq` (n_v, n_v), symmetric: v.phi_qq v is the second derivative of
-/// phi along q (+) s v, a ball turning at a constant rate.
+/// Adds the pair's Hessian to `phi_qq` (n_v, n_v), symmetric: v.phi_qq v is the second derivative
+/// of phi along q (+) s v, a ball turning at a constant rate.
 SALTUS_EXPORT void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                    const Gap& gap, Eigen::Ref<MatX> phi_qq);
 

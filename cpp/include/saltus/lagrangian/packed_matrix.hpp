@@ -89,8 +89,8 @@ SALTUS_EXPORT void pull_back_end(const PackedTree& packed, const PackedMatrix& J
 /// x <- C^T x: likewise from one by its middle, over tau / 2.
 SALTUS_EXPORT void pull_back_middle(const PackedTree& packed, const PackedMatrix& J, VecX& x);
 
-/// rate <- -K dp_start/dtau of an arc (theory, section 3 and O2), what solve_scaled takes to dv/dtau.
-/// Needs factorize; `products` are scratch, x too.
+/// rate <- -K dp_start/dtau of an arc (theory, section 3 and O2), what solve_scaled takes to
+/// dv/dtau. Needs factorize; `products` are scratch, x too.
 SALTUS_EXPORT void set_momentum_rate(const Tree& tree, const PackedTree& packed, const Packed& w,
                                      double tau, PackedProducts& products, VecX& x, VecX& rate);
 

@@ -65,6 +65,9 @@ struct PackedGroup {
   std::vector<long> row;            ///< (positions) block where its row begins, see PackedRows
   std::vector<int> reference_path;  ///< positions from the joint at the reference point to the root
   std::vector<int> balls;           ///< positions of the first joints of balls; the others follow
+  /// (positions) nothing turns above the joint, so that PackedTree::X has its placement in the
+  /// world's axes: that of the root, of all joints of a body that flies.
+  std::vector<char> placed;
 
   int slot(int position) const { return first + position * width; }
 };
@@ -83,16 +86,21 @@ struct PackedBall {
 struct PackedTree {
   std::vector<PackedGroup> groups;
   std::vector<PackedPlace> trees;
-  std::vector<int> tree;   ///< (n) index in `trees` of each joint
-  std::vector<int> slot;   ///< (n) of each joint
-  std::vector<int> joint;  ///< (slots) in each slot, -1 where there is none
-  int slots = 0;           ///< a multiple of 8
-  long row_blocks = 0;     ///< of all rows
-  long lu_row_blocks = 0;  ///< of those of groups that lu solves; they come first
-  bool one_to_one = true;  ///< as in Tree
+  std::vector<int> tree;          ///< (n) index in `trees` of each joint
+  std::vector<int> slot;          ///< (n) of each joint
+  std::vector<int> joint;         ///< (slots) in each slot, -1 where there is none
+  int slots = 0;                  ///< a multiple of 8
+  long row_blocks = 0;            ///< of all rows
+  long lu_row_blocks = 0;         ///< of those of groups that lu solves; they come first
+  bool one_to_one = true;         ///< as in Tree
   std::vector<PackedBall> balls;  ///< as in Tree
+  /// Where q has the displacement of a joint; not with mimic joints.
+  struct Displacement {
+    int slot, coordinate;
+  };
+  std::vector<Displacement> displacements;  ///< of all joints that are of no ball
 
-  Blocks<12> X;      ///< placement: R by columns, p
+  Blocks<12> X;      ///< placement: R by columns, p; R from the world's axes where it is `placed`
   Blocks<2> kind;    ///< what a unit of displacement turns and slides: 1, 0 | 0, 1 | 1, pitch
   Blocks<10> body;   ///< mass, c_J, I_J: xx xy xz yy yz zz
   Blocks<1> weight;  ///< [kg] mass of the subtree

@@ -61,8 +61,8 @@ struct ShadowTerm {
   Blocks<3> by_joint;  ///< scratch: what the joint adds to kappa, kappa_q, kappa_v
 };
 
-/// Writes all of `out`; `a` (n_v) is that of free_motion. Not for trees with balls. Needs first_pass at (q, v), which
-/// second_pass may have followed.
+/// Writes all of `out`; `a` (n_v) is that of free_motion. Not for trees with balls. Needs
+/// first_pass at (q, v), which second_pass may have followed.
 SALTUS_EXPORT void shadow_gradient(const Tree& tree, const PackedTree& packed, const Packed& w,
                                    const VecRef& a, ShadowTerm& out);
 

@@ -57,7 +57,8 @@ struct SALTUS_EXPORT BatchTrajectory {
   std::map<int, std::string> failures() const;  ///< messages of the runs that failed
 };
 
-/// Starts from arrays of coordinates (runs, n_q) [rad | m] and velocities (runs, n_v) [rad/s | m/s].
+/// Starts from arrays of coordinates (runs, n_q) [rad | m] and velocities (runs, n_v) [rad/s |
+/// m/s].
 /// @throws ModelError on other shapes; on a value that is not finite, by row and coordinate.
 SALTUS_EXPORT std::vector<State> states(const Model& model, const Eigen::Ref<const MatX>& q,
                                         const Eigen::Ref<const MatX>& v, double t = 0);

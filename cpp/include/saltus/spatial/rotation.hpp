@@ -2,7 +2,8 @@
 // angle) that arcs of ball joints are made of. Theory, O.
 //
 //   exp(f) = 1 + sin t/t [f] + (1 - cos t)/t^2 [f]^2         J(f) = 1 + b [f] + c [f]^2
-//   d exp(f) exp(f)^-1 = [J(f) df]                           b = (1 - cos t)/t^2, c = (t - sin t)/t^3
+//   d exp(f) exp(f)^-1 = [J(f) df]                           b = (1 - cos t)/t^2, c = (t - sin
+//   t)/t^3
 //
 // with t = |f|, [f] x = f x x. All coefficients are entire functions of t^2; below t = 0.3 they are
 // summed as series, where the closed forms would lose digits.

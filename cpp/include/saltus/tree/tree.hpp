@@ -28,7 +28,8 @@ struct Joint {
 };
 
 /// Which velocity drives a joint: its rate is `multiplier * v[velocity]`, and its displacement, but
-/// for a ball, `multiplier * q[tree.coordinate[velocity]] + offset` (mimic joints share a velocity).
+/// for a ball, `multiplier * q[tree.coordinate[velocity]] + offset` (mimic joints share a
+/// velocity).
 struct Drive {
   int velocity = 0;
   double multiplier = 1;
@@ -44,9 +45,9 @@ struct Ball {
 
 /// Joints in topological order: `parent[i] < i`; -1 is the world.
 struct Tree {
-  int n_q = 0;                 ///< numbers in q: a ball has four
-  int n_v = 0;                 ///< numbers in v and p: a ball has three
-  std::vector<int> coordinate; ///< (n_v) index in q of what v moves; of a ball its quaternion's
+  int n_q = 0;                  ///< numbers in q: a ball has four
+  int n_v = 0;                  ///< numbers in v and p: a ball has three
+  std::vector<int> coordinate;  ///< (n_v) index in q of what v moves; of a ball its quaternion's
   std::vector<Ball> balls;
   std::vector<int> parent;     ///< (n)
   std::vector<Joint> joint;    ///< (n)

@@ -18,7 +18,8 @@ Vec3 numbers(const Blocks<C>& blocks, const PackedBall& ball, int c) {
   return out;
 }
 
-Vec3 ball_rate(const PackedBall& ball, const Packed& w, double tau, const PackedProducts& products) {
+Vec3 ball_rate(const PackedBall& ball, const Packed& w, double tau,
+               const PackedProducts& products) {
   const Vec3 omega = numbers(w.s_dot, ball, 0), f = tau * omega;
   const Vec3 L_vq_v = numbers(products.by_joint, ball, 0), L_q = numbers(w.first, ball, 1);
   const Vec3 L_qq_v = numbers(products.by_joint, ball, 2);

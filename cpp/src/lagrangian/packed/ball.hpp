@@ -3,6 +3,7 @@
 
 #include "lagrangian/packed/lane.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "spatial/turn_series.hpp"
 
 namespace saltus::packed {
 
@@ -29,8 +30,37 @@ SALTUS_INLINE void for_each_ball(const PackedGroup& g, const Kernel& kernel) {
   }
 }
 
+/// Calls kernel(third slot, lane, x = |tau w|^2) for every ball where all turns of its lanes are
+/// small, and by_hand(third slot, f) for the others.
+template <class Kernel, class ByHand>
+SALTUS_INLINE void for_each_turn(const PackedGroup& g, const Packed& w, double tau,
+                                 const Kernel& kernel, const ByHand& by_hand) {
+  for (const int k : g.balls) {
+    for (int b = 0; b < g.width; b += lanes) {
+      const int z = g.slot(k + 2) + b, last = g.width == 1 ? 1 : lanes;
+      const double *rx = at(w.s_dot, g.slot(k) + b), *ry = at(w.s_dot, g.slot(k + 1) + b);
+      const double* rz = at(w.s_dot, z);
+      double x[lanes];
+      bool all_small = true;
+      SALTUS_LANES
+      for (int l = 0; l < last; ++l) {
+        x[l] = tau * tau * (rx[l] * rx[l] + ry[l] * ry[l] + rz[l] * rz[l]);
+      }
+      for (int l = 0; l < last; ++l) all_small = all_small && x[l] < turn_series::small;
+      if (all_small) {
+        SALTUS_LANES
+        for (int l = 0; l < last; ++l) kernel(z, l, x[l]);
+      } else {
+        for (int l = 0; l < last; ++l) by_hand(z + l, tau * Vec3(rx[l], ry[l], rz[l]));
+      }
+    }
+  }
+}
+
 /// One number of each of the three joints.
-SALTUS_INLINE V3 load_ball(const double* x, const double* y, const double* z) { return {*x, *y, *z}; }
+SALTUS_INLINE V3 load_ball(const double* x, const double* y, const double* z) {
+  return {*x, *y, *z};
+}
 
 /// R of the third joints, in their parents' frames: placement times the quaternion's.
 void turn_balls(const PackedTree& t, Packed& w);

@@ -7,7 +7,8 @@ namespace {
 SALTUS_INLINE M3 rotation(double x, double y, double z, double w) {
   const double xx = 2 * x * x, yy = 2 * y * y, zz = 2 * z * z, xy = 2 * x * y, xz = 2 * x * z;
   const double yz = 2 * y * z, wx = 2 * w * x, wy = 2 * w * y, wz = 2 * w * z;
-  return {{1 - yy - zz, xy + wz, xz - wy}, {xy - wz, 1 - xx - zz, yz + wx},
+  return {{1 - yy - zz, xy + wz, xz - wy},
+          {xy - wz, 1 - xx - zz, yz + wx},
           {xz + wy, yz - wx, 1 - xx - yy}};
 }
 

@@ -66,18 +66,10 @@ struct M3 {
 SALTUS_INLINE V3 operator*(const M3& A, V3 b) { return b.x * A.x + b.y * A.y + b.z * A.z; }
 SALTUS_INLINE M3 operator*(const M3& A, const M3& B) { return {A * B.x, A * B.y, A * B.z}; }
 
-SALTUS_INLINE M3 operator+(const M3& A, const M3& B) { return {A.x + B.x, A.y + B.y, A.z + B.z}; }
-SALTUS_INLINE M3 operator-(const M3& A, const M3& B) { return {A.x - B.x, A.y - B.y, A.z - B.z}; }
 SALTUS_INLINE M3 operator*(double k, const M3& A) { return {k * A.x, k * A.y, k * A.z}; }
 SALTUS_INLINE M3 transpose(const M3& A) {
   return {{A.x.x, A.y.x, A.z.x}, {A.x.y, A.y.y, A.z.y}, {A.x.z, A.y.z, A.z.z}};
 }
-/// A^T b.
-SALTUS_INLINE V3 dot(const M3& A, V3 b) { return {dot(A.x, b), dot(A.y, b), dot(A.z, b)}; }
-/// a b^T.
-SALTUS_INLINE M3 outer(V3 a, V3 b) { return {b.x * a, b.y * a, b.z * a}; }
-/// [f]: the matrix of f x.
-SALTUS_INLINE M3 cross_matrix(V3 f) { return {{0, f.z, -f.y}, {-f.z, 0, f.x}, {f.y, -f.x, 0}}; }
 SALTUS_INLINE M3 scalar_matrix(double k) { return {{k, 0, 0}, {0, k, 0}, {0, 0, k}}; }
 
 /// Symmetric.
@@ -141,16 +133,48 @@ SALTUS_INLINE void store(double* x, int c, const S3& A) {
   store(x, c + 3, V3{A.yy, A.yz, A.zz});
 }
 
+/// add_up of one tree: what goes to the joint before is carried along.
+template <int C, int B>
+SALTUS_INLINE void add_up_one_tree(const PackedGroup& g, Blocks<B>& x, int first) {
+  double carried[C];
+  const double* last = at(x, g.first + g.positions - 1) + first * lanes;
+  for (int c = 0; c < C; ++c) carried[c] = last[c * lanes];
+  for (int k = g.positions - 1; k > 0; --k) {
+    const int parent = g.parent[k];
+    double* before = at(x, g.first + k - 1) + first * lanes;
+    if (parent == k - 1) {
+      for (int c = 0; c < C; ++c) before[c * lanes] = carried[c] += before[c * lanes];
+      continue;
+    }
+    double* above = at(x, g.first + parent) + first * lanes;
+    for (int c = 0; c < C; ++c) above[c * lanes] += carried[c];
+    for (int c = 0; c < C; ++c) carried[c] = before[c * lanes];
+  }
+}
+
+/// add_down of one tree, likewise.
+template <int C, int B>
+SALTUS_INLINE void add_down_one_tree(const PackedGroup& g, Blocks<B>& x, int first) {
+  double carried[C];
+  const double* root = at(x, g.first) + first * lanes;
+  for (int c = 0; c < C; ++c) carried[c] = root[c * lanes];
+  for (int k = 1; k < g.positions; ++k) {
+    double* own = at(x, g.first + k) + first * lanes;
+    if (g.parent[k] != k - 1) {
+      const double* above = at(x, g.first + g.parent[k]) + first * lanes;
+      for (int c = 0; c < C; ++c) carried[c] = above[c * lanes];
+    }
+    for (int c = 0; c < C; ++c) own[c * lanes] = carried[c] += own[c * lanes];
+  }
+}
+
 /// Adds C numbers of every joint to its parent's, from the leaves to the root.
 template <int C, int B>
 SALTUS_INLINE void add_up(const PackedGroup& g, Blocks<B>& x, int first) {
+  if (g.width == 1) return add_up_one_tree<C>(g, x, first);
   for (int k = g.positions - 1; k > 0; --k) {
     const double* child = at(x, g.slot(k)) + first * lanes;
     double* parent = at(x, g.slot(g.parent[k])) + first * lanes;
-    if (g.width == 1) {
-      for (int c = 0; c < C; ++c) parent[c * lanes] += child[c * lanes];
-      continue;
-    }
     for (int b = 0; b < g.width / lanes; ++b) {
       for (int c = 0; c < C; ++c) {
         SALTUS_LANES
@@ -165,13 +189,10 @@ SALTUS_INLINE void add_up(const PackedGroup& g, Blocks<B>& x, int first) {
 /// Adds C numbers of every joint's parent to its own, from the root to the leaves.
 template <int C, int B>
 SALTUS_INLINE void add_down(const PackedGroup& g, Blocks<B>& x, int first) {
+  if (g.width == 1) return add_down_one_tree<C>(g, x, first);
   for (int k = 1; k < g.positions; ++k) {
     double* child = at(x, g.slot(k)) + first * lanes;
     const double* parent = at(x, g.slot(g.parent[k])) + first * lanes;
-    if (g.width == 1) {
-      for (int c = 0; c < C; ++c) child[c * lanes] += parent[c * lanes];
-      continue;
-    }
     for (int b = 0; b < g.width / lanes; ++b) {
       for (int c = 0; c < C; ++c) {
         SALTUS_LANES

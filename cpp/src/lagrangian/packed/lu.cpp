@@ -126,10 +126,29 @@ SALTUS_INLINE bool eliminate_equal_trees(const PackedGroup& g, PackedMatrix& J) 
   return good;
 }
 
+/// Of a tree without branches: the joint at level a is at position a.
+template <bool symmetric>
+SALTUS_INLINE void solve_chain(const PackedGroup& g, PackedMatrix& J) {
+  double* x = J.x[g.first / lanes].x[0];
+  const int n = g.positions;
+  for (int j = n - 1; j > 0; --j) {
+    const double* upper = (symmetric ? J.lower : J.upper)[g.row[j]].x[0];
+    const double each = x[j] * *at(J.inverse, g.first + j);
+    for (int a = 0; a < j; ++a) x[a] -= upper[a] * each;
+  }
+  for (int j = 0; j < n; ++j) {
+    const double* lower = J.lower[g.row[j]].x[0];
+    double sum = x[j];
+    for (int a = j - 1; a >= 0; --a) sum -= lower[a] * x[a];
+    x[j] = sum * *at(J.inverse, g.first + j);
+  }
+}
+
 template <bool symmetric>
 SALTUS_INLINE void solve_one_tree(const PackedGroup& g, PackedMatrix& J) {
+  if (!g.branched) return solve_chain<symmetric>(g, J);
   double* x = J.x[g.first / lanes].x[0];
-  const auto above = [&g](int i) { return g.branched ? g.parent[i] : i - 1; };
+  const auto above = [&g](int i) { return g.parent[i]; };
   for (int j = g.positions - 1; j >= 0; --j) {
     const double* upper = (symmetric ? J.lower : J.upper)[g.row[j]].x[0];
     const double each = x[j] * *at(J.inverse, g.slot(j));

@@ -81,6 +81,9 @@ PackedGroup group_of(const Shape& shape, int trees, int first, TreeSolver solver
   g.level = shape.level;
   g.reference_path = shape.reference_path;
   g.balls = shape.balls;
+  g.placed.assign(g.parent.size(), 0);
+  for (const int k : g.reference_path) g.placed[k] = 1;
+  for (const int k : g.balls) g.placed[k + 1] = g.placed[k + 2] = g.placed[k];
   g.row.resize(g.parent.size());
   return g;
 }
@@ -139,6 +142,17 @@ void set_constants(const Tree& tree, const MassModel& mass, int i, PackedTree& t
   *at(t.weight, slot) = body.mass;
 }
 
+/// R of the placements in the world's axes, where nothing turns above.
+void place_in_world(const PackedGroup& g, PackedTree& t) {
+  for (int k = 1; k < g.positions; ++k) {
+    for (int lane = 0; lane < g.trees && g.placed[k]; ++lane) {
+      double* X = at(t.X, g.slot(k) + lane);
+      packed::store(X, 0,
+                    packed::load9(at(t.X, g.slot(g.parent[k]) + lane), 0) * packed::load9(X, 0));
+    }
+  }
+}
+
 }  // namespace
 
 PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
@@ -162,6 +176,9 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
   }
   t.joint.assign(static_cast<std::size_t>(t.slots), -1);
   for (int i = 0; i < tree.joints(); ++i) t.joint[t.slot[i]] = i;
+  for (int i = 0; i < tree.joints() && tree.one_to_one; ++i) {
+    if (!tree.joint[i].is_ball()) t.displacements.push_back({t.slot[i], tree.coordinate[i]});
+  }
   for (const Ball& ball : tree.balls) {
     const int* slot = &t.slot[ball.joint];
     t.balls.push_back({{slot[0], slot[1], slot[2]}, ball.velocity, ball.coordinate});
@@ -179,7 +196,10 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
     for (const int c : {0, 4, 8}) std::fill_n(block.x[c], lanes, 1.0);
   }
   for (int i = 0; i < tree.joints(); ++i) set_constants(tree, mass, i, t);
-  for (const PackedGroup& g : t.groups) packed::add_up<1>(g, t.weight, 0);
+  for (const PackedGroup& g : t.groups) {
+    packed::add_up<1>(g, t.weight, 0);
+    place_in_world(g, t);
+  }
   return t;
 }
 

@@ -37,21 +37,23 @@ SALTUS_INLINE M3 chain(const M3& parent, double slide, const double* X, double* 
   return frame;
 }
 
-/// The root's: its parent is the world, and R is right already.
-SALTUS_INLINE M3 start(double slide, const double* X, const double* R, double* p) {
+/// That of a joint that is placed in the world's axes: R is right already.
+SALTUS_INLINE M3 start(const M3& parent, double slide, const double* X, const double* R,
+                       double* p) {
   const M3 frame = load9(R, 0);
-  store(p, 3, load3(X, 9) + slide * frame.z);
+  store(p, 3, parent * load3(X, 9) + slide * frame.z);
   return frame;
 }
 
 SALTUS_INLINE void chain_one_tree(const PackedTree& t, const PackedGroup& g, Packed& w) {
-  const int root = g.first;
-  M3 frame =
-      start(at(t.kind, root)[lanes] * *at(w.s, root), at(t.X, root), at(w.R, root), at(w.p, root));
-  for (int k = 1; k < g.positions; ++k) {
+  M3 frame = scalar_matrix(1);
+  for (int k = 0; k < g.positions; ++k) {
     const int i = g.first + k;
     if (g.parent[k] != k - 1) frame = load9(at(w.R, g.first + g.parent[k]), 0);
-    frame = chain(frame, at(t.kind, i)[lanes] * *at(w.s, i), at(t.X, i), at(w.R, i), at(w.p, i));
+    const double slide = at(t.kind, i)[lanes] * *at(w.s, i);
+    const double* X = at(t.X, i);
+    double *R = at(w.R, i), *p = at(w.p, i);
+    frame = g.placed[k] ? start(frame, slide, X, R, p) : chain(frame, slide, X, R, p);
   }
 }
 
@@ -63,7 +65,14 @@ SALTUS_INLINE void chain_equal_trees(const PackedTree& t, const PackedGroup& g, 
       double *R = at(w.R, i), *p = at(w.p, i);
       if (k == 0) {
         SALTUS_LANES
-        for (int l = 0; l < lanes; ++l) start(kind[lanes + l] * s[l], X + l, R + l, p + l);
+        for (int l = 0; l < lanes; ++l) {
+          store(p + l, 3, load3(X + l, 9) + kind[lanes + l] * s[l] * load9(R + l, 0).z);
+        }
+      } else if (g.placed[k]) {
+        SALTUS_LANES
+        for (int l = 0; l < lanes; ++l) {
+          start(load9(Rp + l, 0), kind[lanes + l] * s[l], X + l, R + l, p + l);
+        }
       } else {
         SALTUS_LANES
         for (int l = 0; l < lanes; ++l) {
@@ -86,13 +95,12 @@ SALTUS_INLINE void sum_steps(const PackedGroup& g, Packed& w) {
     }
     below = k;
   }
-  const int highest = g.reference_path.front();  // the path is in order of position
-  for (int k = 1; k < g.positions; ++k) {
-    bool on_path = false;
-    if (k <= highest) {
-      for (const int each : g.reference_path) on_path = on_path || each == k;
+  auto next = g.reference_path.rbegin();  // the path is in order of position, the root at its end
+  for (int k = 0; k < g.positions; ++k) {
+    if (next != g.reference_path.rend() && *next == k) {
+      ++next;
+      continue;
     }
-    if (on_path) continue;
     if (g.width == 1) {
       double* p = at(w.p, g.slot(k));
       store(p, 0, load3(at(w.p, g.slot(g.parent[k])), 0) + load3(p, 3));
@@ -174,9 +182,10 @@ Packed::Packed(const PackedTree& tree) {
 }
 
 void set_coordinates(const Tree& tree, const PackedTree& t, const VecRef& q, Packed& w) {
-  const bool plain = t.one_to_one && t.balls.empty();
-  for (int i = 0; i < tree.joints() && plain; ++i) *at(w.s, t.slot[i]) = q[i];
-  for (int i = 0; i < tree.joints() && !plain; ++i) *at(w.s, t.slot[i]) = displacement(tree, i, q);
+  for (const auto& each : t.displacements) *at(w.s, each.slot) = q[each.coordinate];
+  for (int i = 0; i < tree.joints() && !t.one_to_one; ++i) {
+    *at(w.s, t.slot[i]) = displacement(tree, i, q);
+  }
   for (const PackedBall& ball : t.balls) {
     double* to = at(w.ball, ball.slot[2]);
     for (int c = 0; c < 4; ++c) to[c * lanes] = q[ball.coordinate + c];

@@ -60,8 +60,7 @@ SALTUS_CLONES void set_ball_products(const PackedTree& t, const Packed& w, Packe
       const V6 up_W = load6(at(out.above, s.x) + l, 0) - s_x * load6(S_x, 6);
       const V6 up_S = load6(at(w.V, s.x) + l, 0) - s_x * load6(S_x, 0);
       const V6 V = load6(at(w.V, s.z) + l, 0), sum_F = load6(below_x, 6);
-      const V6 sum_U =
-          load6(at(out.below, s.z) + l, 0) - s_z * load6(at(w.U_F_G, s.z) + l, 0);
+      const V6 sum_U = load6(at(out.below, s.z) + l, 0) - s_z * load6(at(w.U_F_G, s.z) + l, 0);
       const V3 sum_G = load3(below_x, 12);
       const auto put = [&](int slot) SALTUS_INLINE_LAMBDA {
         const double *S_W = at(w.S_W, slot) + l, *U_F_G = at(w.U_F_G, slot) + l;
@@ -69,8 +68,8 @@ SALTUS_CLONES void set_ball_products(const PackedTree& t, const Packed& w, Packe
         double* to = at(out.by_joint, slot) + l;
         to[0] = dot(S, sum_F) + dot(U, up_W);
         to[lanes] = dot(W, sum_U) + dot(F, V);
-        to[2 * lanes] = dot(W, sum_F) + dot(S.w, sum_G) + dot(F, up_W) +
-                        dot(load3(U_F_G, 12), up_S.w);
+        to[2 * lanes] =
+            dot(W, sum_F) + dot(S.w, sum_G) + dot(F, up_W) + dot(load3(U_F_G, 12), up_S.w);
       };
       put(s.x);
       put(s.y);
