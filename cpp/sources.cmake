@@ -2,11 +2,16 @@
 # A new file is appended here by whoever adds it; a listed file that does not exist stops CMake.
 set(SALTUS_SOURCES
   # spatial
+  cpp/src/spatial/rotation.cpp
   # tree
+  cpp/src/tree/coordinates.cpp
   cpp/src/tree/kinematics.cpp
   cpp/src/tree/tree.cpp
   # lagrangian
   cpp/src/lagrangian/mass_model.cpp
+  cpp/src/lagrangian/packed/arc_rate.cpp
+  cpp/src/lagrangian/packed/ball_arc.cpp
+  cpp/src/lagrangian/packed/ball_place.cpp
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp
   cpp/src/lagrangian/packed/pack.cpp
@@ -57,6 +62,7 @@ set(SALTUS_SOURCES
   cpp/src/collision/sphere_sphere.cpp
   # model
   cpp/src/model/assembly.cpp
+  cpp/src/model/configuration.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp

@@ -1,8 +1,10 @@
 // From what a user writes for coordinates, links and shapes to arrays and indices.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "bindings.hpp"
+#include "saltus/spatial/rotation.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -17,22 +19,116 @@ double to_number(const py::handle& x, const std::string& what) {
   }
 }
 
-VecX from_mapping(const py::object& x, const Model& model, const std::string& what) {
-  VecX out = VecX::Zero(model.n_q());
+/// Which numbers of q or v a user may name, and by what.
+struct Numbers {
+  std::string kind;                ///< "coordinate" or "velocity"
+  std::vector<std::string> names;  ///< of the numbers
+  std::vector<int> JointInfo::* of_joint;
+};
+
+Numbers numbers_of_q(const Model& model) {
+  return {"coordinate", names_of(model->coordinates), &JointInfo::coordinates};
+}
+Numbers numbers_of_v(const Model& model) {
+  return {"velocity", model->velocity_names, &JointInfo::velocities};
+}
+
+/// Numbers in a sequence, of sequences or not: (position, quaternion) is seven.
+void append_numbers(const py::handle& x, const std::string& entry, std::vector<double>& out) {
+  if (py::isinstance<Pose>(x)) {
+    const Pose& X = x.cast<const Pose&>();
+    const Quaternion q = Quaternion(X.R).normalized();
+    out.insert(out.end(), X.p.begin(), X.p.end());
+    out.insert(out.end(), q.coeffs().begin(), q.coeffs().end());
+  } else if (py::hasattr(x, "as_quat")) {  // SciPy's Rotation: x y z w
+    append_numbers(x.attr("as_quat")(), entry, out);
+  } else if (py::isinstance<py::sequence>(x) || py::hasattr(x, "tolist")) {
+    if (py::isinstance<py::str>(x)) to_number(x, entry);
+    for (const py::handle each : x) append_numbers(each, entry, out);
+  } else {
+    out.push_back(to_number(x, entry));
+  }
+}
+
+/// The numbers of a joint that has several: `given` may lack the position of a free joint's q.
+void set_joint(const py::handle& value, const std::string& entry, const JointInfo& joint,
+               const std::vector<int>& indices, bool is_q, VecX& out, std::vector<char>& is_set) {
+  std::vector<double> given;
+  append_numbers(value, entry, given);
+  std::size_t first = 0;
+  const bool is_rotation = py::hasattr(value, "as_quat");
+  if (is_q && is_rotation && joint.type == JointType::floating) first = 3;
+  if (is_q && py::isinstance<Pose>(value) && joint.type == JointType::spherical) {
+    throw ModelError(entry + " is a Pose; a ball joint takes a quaternion x y z w or a Rotation",
+                     "joint", joint.name);
+  }
+  if (given.size() + first != indices.size()) {
+    std::string wanted = std::to_string(indices.size()) + " numbers";
+    if (joint.type == JointType::floating) {
+      wanted = is_q ? "a Pose, a Rotation, or position and quaternion (x y z, x y z w)"
+                    : "velocity and angular velocity (x y z, x y z)";
+    } else if (joint.type == JointType::spherical) {
+      wanted = is_q ? "a quaternion x y z w or a Rotation" : "an angular velocity x y z";
+    }
+    throw ModelError(entry + " has " + std::to_string(given.size()) + " numbers; joint \"" +
+                         joint.name + "\" takes " + wanted,
+                     "joint", joint.name);
+  }
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const int i = indices[first + k];
+    out[i] = given[k];
+    ++is_set[static_cast<std::size_t>(i)];
+  }
+}
+
+[[noreturn]] void refuse_name(const std::string& name, const Numbers& numbers, const Model& model) {
+  std::vector<std::string> known = numbers.names;
+  for (const JointInfo& joint : model->joints) {
+    if ((joint.*numbers.of_joint).size() > 1) known.push_back(joint.name);
+  }
+  throw ModelError("no " + numbers.kind + " \"" + name + "\"; there are " + list_names(known),
+                   numbers.kind, name);
+}
+
+void set_entry(const std::string& name, const py::handle& value, const std::string& what,
+               const Numbers& numbers, const Model& model, VecX& out, std::vector<char>& is_set) {
+  const std::string entry = what + "[\"" + name + "\"]";
+  const auto found = std::find(numbers.names.begin(), numbers.names.end(), name);
+  if (found != numbers.names.end()) {
+    const auto i = found - numbers.names.begin();
+    out[i] = to_number(value, entry);
+    ++is_set[static_cast<std::size_t>(i)];
+    return;
+  }
+  for (const JointInfo& joint : model->joints) {
+    const std::vector<int>& indices = joint.*numbers.of_joint;
+    if (joint.name != name || indices.size() < 2) continue;
+    return set_joint(value, entry, joint, indices, numbers.kind == "coordinate", out, is_set);
+  }
+  refuse_name(name, numbers, model);
+}
+
+VecX from_mapping(const py::object& x, const Model& model, const std::string& what,
+                  const Numbers& numbers, VecX out) {
+  std::vector<char> is_set(static_cast<std::size_t>(out.size()), 0);
   for (const py::handle item : x.attr("items")()) {
     const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
     if (!py::isinstance<py::str>(key)) {
-      throw ModelError(what + " has the key " + show(key) + "; keys are names of coordinates: " +
-                       list_names(names_of(model->coordinates)));
+      throw ModelError(what + " has the key " + show(key) + "; keys are names: " +
+                       list_names(numbers.names));
     }
-    const auto name = key.cast<std::string>();
-    const std::string entry = what + "[\"" + name + "\"]";
-    const int i = model.coordinate(name);
-    out[i] = to_number(value, entry);
-    if (!std::isfinite(out[i])) {
-      throw ModelError(entry + " = " + show(py::float_(out[i])) + " is not finite", "coordinate",
-                       name);
+    set_entry(key.cast<std::string>(), value, what, numbers, model, out, is_set);
+  }
+  for (std::size_t i = 0; i < is_set.size(); ++i) {
+    const std::string& name = numbers.names[i];
+    const double number = out[static_cast<Eigen::Index>(i)];
+    if (is_set[i] > 1) {
+      throw ModelError(what + " gives \"" + name + "\" twice, by its name and by its joint's",
+                       numbers.kind, name);
     }
+    if (std::isfinite(number)) continue;
+    throw ModelError(what + "[\"" + name + "\"] = " + show(py::float_(number)) + " is not finite",
+                     numbers.kind, name);
   }
   return out;
 }
@@ -56,12 +152,22 @@ VecX from_array(const py::object& x, const std::string& what, int n) {
 }  // namespace
 
 VecX to_vector(const Coordinates& x, const Model& model, const char* what) {
-  if (x.value.is_none()) return VecX::Zero(model.n_q());
+  if (x.value.is_none()) return model.neutral();
+  if (py::hasattr(x.value, "items")) {
+    const VecX q = from_mapping(x.value, model, what, numbers_of_q(model), model.neutral());
+    return model.checked_q(q, what);
+  }
+  return model.checked_q(from_array(x.value, what, model.n_q()), what);
+}
+
+VecX to_vector(const Velocities& x, const Model& model, const char* what) {
+  const VecX zero = VecX::Zero(model.n_v());
+  if (x.value.is_none()) return zero;
   const bool is_mapping = py::hasattr(x.value, "items");
-  const VecX out =
-      is_mapping ? from_mapping(x.value, model, what) : from_array(x.value, what, model.n_q());
-  check_vector(out, model.n_q(), what);
-  return out;
+  const VecX v = is_mapping ? from_mapping(x.value, model, what, numbers_of_v(model), zero)
+                            : from_array(x.value, what, model.n_v());
+  check_vector(v, model.n_v(), what, "velocities");
+  return v;
 }
 
 void refuse_choice(const py::handle& x, const py::handle& kind, const char* what) {

@@ -22,8 +22,8 @@ void bind_state(py::module_& m) {
       .def(py::init([](double t, const VecX& q, const VecX& p) { return State{t, q, p}; }),
            py::arg("t"), py::arg("q"), py::arg("p"))
       .def_readonly("t", &State::t, "[s]")
-      .def_readonly("q", &State::q, "[rad | m] coordinates, shape (n,)")
-      .def_readonly("p", &State::p, "[kg m^2/s | kg m/s] conjugate momenta, shape (n,)")
+      .def_readonly("q", &State::q, "[rad | m] coordinates, shape (n_q,)")
+      .def_readonly("p", &State::p, "[kg m^2/s | kg m/s] conjugate momenta, shape (n_v,)")
       .def("__eq__",
            [](const State& self, const py::object& other) {
              return py::isinstance<State>(other) && self == other.cast<const State&>();
@@ -56,7 +56,12 @@ void bind_parts(py::module_& m) {
   py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
       .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
       .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
-      .def_readonly("angular", &Coordinate::angular, "True for [rad], False for [m]")
+      .def_property_readonly(
+          "unit",
+          [](const Coordinate& c) {
+            return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
+          },
+          "\"m\", \"rad\", or \"1\" of a quaternion's numbers")
       .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
       .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
       .def_readonly("velocity", &Coordinate::velocity, "[rad/s | m/s] limit, inf where none")
@@ -69,7 +74,8 @@ void bind_parts(py::module_& m) {
       .def_readonly("type", &JointInfo::type)
       .def_readonly("parent", &JointInfo::parent, "name of the parent link")
       .def_readonly("child", &JointInfo::child, "name of the child link")
-      .def_readonly("coordinates", &JointInfo::coordinates, "indices of those that move it")
+      .def_readonly("coordinates", &JointInfo::coordinates, "indices in q of those that move it")
+      .def_readonly("velocities", &JointInfo::velocities, "indices in v and p, likewise")
       .def("__repr__", [](const JointInfo& j) { return "JointInfo('" + j.name + "')"; });
 }
 
@@ -91,8 +97,8 @@ void bind_gaps(py::module_& m) {
   py::class_<Gaps>(m, "Gaps", docs::gaps)
       .def_readonly("names", &Gaps::names, "\"a ~ b\", m of them")
       .def_readonly("phi", &Gaps::phi, "[m] shape (m,)")
-      .def_readonly("phi_q", &Gaps::phi_q, "[m/rad | 1] shape (m, n)")
-      .def_readonly("phi_qq", &Gaps::phi_qq, "m arrays of shape (n, n)")
+      .def_readonly("phi_q", &Gaps::phi_q, "[m/rad | 1] shape (m, n_v)")
+      .def_readonly("phi_qq", &Gaps::phi_qq, "m arrays of shape (n_v, n_v)")
       .def_readonly("normal", &Gaps::normal, "unit normals from b to a, shape (m, 3)")
       .def_readonly("p_WA", &Gaps::p_WA, "[m] witnesses on a, shape (m, 3)")
       .def_readonly("p_WB", &Gaps::p_WB, "[m] witnesses on b, shape (m, 3)")
@@ -125,7 +131,8 @@ std::vector<Pair> pairs(const Model& model) {
 
 void bind_lists(py::class_<Model>& c) {
   c.def_property_readonly("name", [](const Model& m) { return m->name; })
-      .def_property_readonly("n_q", &Model::n_q, "number of coordinates, n elsewhere")
+      .def_property_readonly("n_q", &Model::n_q, "numbers in q: a ball joint has four")
+      .def_property_readonly("n_v", &Model::n_v, "numbers in v and p: a ball joint has three")
       .def_property_readonly(
           "gravity", [](const Model& m) { return m->mass.gravity; }, "[m/s^2] shape (3,)")
       .def_property_readonly(
@@ -146,6 +153,7 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("joint_names", [](const Model& m) { return names_of(m->joints); })
       .def_property_readonly("coordinate_names",
                              [](const Model& m) { return names_of(m->coordinates); })
+      .def_property_readonly("velocity_names", [](const Model& m) { return m->velocity_names; })
       .def_property_readonly("pair_names", &pair_names,
                              "\"a ~ b\" of every pair, \"a[part] ~ b\" where shapes have several")
       .def("pair", &Model::pair, py::arg("pair"),
@@ -158,13 +166,16 @@ void bind_lists(py::class_<Model>& c) {
            "order.")
       .def_property_readonly("solvers", &Model::solvers, "TreeSolutions: how its trees are solved")
       .def("coordinate", &Model::coordinate, py::arg("name"),
-           "Index of a coordinate; ModelError with the names there are.")
+           "Index of a coordinate in q; ModelError with the names there are.")
+      .def("velocity_index", &Model::velocity_index, py::arg("name"),
+           "Index of a velocity in v and p; ModelError with the names there are.")
       .def("link", &Model::link, py::arg("name"),
            "Index of a link; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
            "A copy without any pair: bodies pass through each other.")
       .def("__repr__", [](const Model& m) {
         return "Model('" + m->name + "', " + std::to_string(m.n_q()) + " coordinates, " +
+               (m.n_v() == m.n_q() ? "" : std::to_string(m.n_v()) + " velocities, ") +
                std::to_string(m->shapes.size()) + " shapes, " + std::to_string(m->pairs.size()) +
                " pairs)";
       });
@@ -209,6 +220,38 @@ void bind_copies(py::class_<Model>& c) {
           }));
 }
 
+/// A 64-bit seed from a number, a NumPy Generator, or nothing.
+std::uint64_t to_seed(const py::object& random) {
+  const py::object generator =
+      py::module_::import("numpy").attr("random").attr("default_rng")(random);
+  const auto below = static_cast<std::int64_t>(0x7fffffffffffffff);
+  return generator.attr("integers")(below).cast<std::uint64_t>();
+}
+
+void bind_configurations(py::class_<Model>& c) {
+  c.def("neutral", &Model::neutral, docs::model_neutral)
+      .def(
+          "integrate",
+          [](const Model& model, const Coordinates& q, const Velocities& dv) {
+            return model.integrate(to_vector(q, model), to_vector(dv, model, "dv"));
+          },
+          docs::model_integrate, py::arg("q"), py::arg("dv"))
+      .def(
+          "difference",
+          [](const Model& model, const Coordinates& q0, const Coordinates& q1) {
+            return model.difference(to_vector(q0, model, "q0"), to_vector(q1, model, "q1"));
+          },
+          docs::model_difference, py::arg("q0"), py::arg("q1"))
+      .def("normalized", &Model::normalized, docs::model_normalized, py::arg("q"))
+      .def(
+          "random_configuration",
+          [](const Model& model, const py::object& random) {
+            std::mt19937_64 bits(to_seed(random));
+            return model.random_configuration(bits);
+          },
+          docs::model_random, py::arg("random") = py::none());
+}
+
 }  // namespace
 
 void bind_model(py::module_& m) {
@@ -220,42 +263,43 @@ void bind_model(py::module_& m) {
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);
   bind_copies(c);
+  bind_configurations(c);
   c.def(
        "state",
-       [](const Model& model, const Coordinates& q, const Coordinates& v, double t) {
-         return model.state(to_vector(q, model, "q"), to_vector(v, model, "v"), t);
+       [](const Model& model, const Coordinates& q, const Velocities& v, double t) {
+         return model.state(to_vector(q, model), to_vector(v, model), t);
        },
        docs::model_state, py::arg("q") = py::none(), py::arg("v") = py::none(), py::arg("t") = 0.0)
       .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))
       .def(
           "lagrangian",
-          [](const Model& model, const Coordinates& q, const Coordinates& v) {
-            return model.lagrangian(to_vector(q, model, "q"), to_vector(v, model, "v"));
+          [](const Model& model, const Coordinates& q, const Velocities& v) {
+            return model.lagrangian(to_vector(q, model), to_vector(v, model));
           },
           docs::model_lagrangian, py::arg("q"), py::arg("v"))
       .def(
           "mass_matrix",
           [](const Model& model, const Coordinates& q) {
-            return model.mass_matrix(to_vector(q, model, "q"));
+            return model.mass_matrix(to_vector(q, model));
           },
           docs::model_mass_matrix, py::arg("q"))
       .def(
           "gaps",
           [](const Model& model, const Coordinates& q) {
-            return model.gaps(to_vector(q, model, "q"));
+            return model.gaps(to_vector(q, model));
           },
           docs::model_gaps, py::arg("q"))
       .def("kinetic_energy", &Model::kinetic_energy, "[J] at this state.", py::arg("state"))
       .def(
           "potential_energy",
           [](const Model& model, const Coordinates& q) {
-            return model.potential_energy(to_vector(q, model, "q"));
+            return model.potential_energy(to_vector(q, model));
           },
           "[J] of gravity, zero at the world's origin.", py::arg("q"))
       .def(
           "pose",
           [](const Model& model, const Coordinates& q, const NameOrIndex& link) {
-            return model.X_WL(to_vector(q, model, "q"),
+            return model.X_WL(to_vector(q, model),
                               to_index(link, names_of(model->links), "link"));
           },
           docs::model_pose, py::arg("q"), py::arg("link"));

@@ -38,15 +38,21 @@ void bind_batch(py::module_& m);
 /// Wrong arguments of all functions and methods are explained in words (saltus.arguments).
 void explain_errors(const py::module_& m);
 
-/// What a user gives for q or v: names and values (coordinates not named are 0), an array (n_q), or
-/// None for zeros.
+/// What a user gives for q: names and values (others as in Model::neutral), where a joint's name
+/// stands for all of its numbers; an array (n_q); or None.
 struct Coordinates {
   py::object value;
 };
 
-/// The array (n_q) that is meant; `what` names it in messages.
-/// @throws ModelError on a name that the model has not, and on what are no numbers or not (n_q).
-VecX to_vector(const Coordinates& x, const Model& model, const char* what);
+/// Likewise for v: others are 0, and arrays (n_v).
+struct Velocities {
+  py::object value;
+};
+
+/// The array that is meant; `what` names it in messages.
+/// @throws ModelError on a name that the model has not, and on what are no numbers or too many.
+VecX to_vector(const Coordinates& x, const Model& model, const char* what = "q");
+VecX to_vector(const Velocities& x, const Model& model, const char* what = "v");
 
 /// What a user gives for e: one number for all contacts, or one for each.
 struct Restitution {
@@ -114,7 +120,18 @@ template <>
 struct type_caster<saltus::bindings::Coordinates> {
   PYBIND11_TYPE_CASTER(
       saltus::bindings::Coordinates,
-      const_name("collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None"));
+      const_name("collections.abc.Mapping[str, object] | numpy.typing.ArrayLike | None"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+template <>
+struct type_caster<saltus::bindings::Velocities> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::Velocities,
+                       const_name("collections.abc.Mapping[str, numpy.typing.ArrayLike] | "
+                                  "numpy.typing.ArrayLike | None"));
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

@@ -11,19 +11,20 @@ Parameters
 ----------
 t : float
     [s]
-q : array_like, shape (n,)
-    [rad | m] coordinates.
-p : array_like, shape (n,)
+q : array_like, shape (n_q,)
+    [rad | m] coordinates; of ball joints a unit quaternion x y z w.
+p : array_like, shape (n_v,)
     [kg m^2/s | kg m/s] conjugate momenta, p = L_v.
 )";
 
 constexpr auto joint_type = R"(Kinds of joints and their coordinates.
 
-planar: x, y, yaw in the plane normal to the axis; floating: x, y, z, then yaw, pitch, roll
-(singular at pitch = pi/2); spherical: yaw, pitch, roll; helical: turns and advances by `pitch`.
+planar: x, y, yaw in the plane normal to the axis; spherical: a ball, whose coordinates are a unit
+quaternion x y z w and whose velocities are the angular velocity, both in the parent's axes;
+floating: x, y, z, then a ball; helical: turns and advances by `pitch`.
 )";
 
-constexpr auto coordinate = R"(A generalized coordinate and what the model's file says of it.
+constexpr auto coordinate = R"(A number of q and what the model's file says of it.
 
 Limits, damping and friction are kept for the user; the stepper does not apply them.
 )";
@@ -41,18 +42,21 @@ constexpr auto gaps = R"(Gaps of all m pairs of a model at one configuration.
 
 constexpr auto model = R"(A tree of rigid bodies: frozen, checked, cheap to copy.
 
-Made by `load_urdf` or `ModelBuilder.build`. Wherever a method takes coordinates or velocities,
-it takes an array of shape (n,) or a mapping from names to values, whose other values are 0.
+Made by `load_urdf` or `ModelBuilder.build`. Where a method takes coordinates, it takes an array of
+shape (n_q,) or a mapping from names to values, others being those of `neutral`; where it takes
+velocities, an array of shape (n_v,) or a mapping, others being 0. In both mappings the name of a
+joint with several numbers stands for all of them: `q={"base": Pose(...)}`, or a position and a
+quaternion, or a SciPy Rotation; `v={"base": ((1, 0, 0), (0, 0, 5))}`.
 )";
 
 constexpr auto model_state = R"(The state with these coordinates and velocities, p = M(q) v.
 
 Parameters
 ----------
-q : array_like, shape (n,), or mapping of names to values
-    [rad | m]; coordinates that are not named are 0.
-v : array_like, shape (n,), or mapping of names to values
-    [rad/s | m/s]
+q : array_like, shape (n_q,), or mapping of names to values
+    [rad | m]; coordinates that are not named are as in `neutral`.
+v : array_like, shape (n_v,), or mapping of names to values
+    [rad/s | m/s]; of free and ball joints in the parent's axes.
 t : float
     [s]
 
@@ -63,14 +67,95 @@ State
 Raises
 ------
 ModelError
-    On an unknown name, a wrong shape, or a value that is not finite.
+    On an unknown name, a wrong shape, a value that is not finite, a quaternion that is not of
+    length 1 (to 1e-6; within that it is normalised).
+)";
+
+constexpr auto model_neutral = R"(Coordinates at rest: 0, but quaternions, which are the identity.
+
+Returns
+-------
+numpy.ndarray, shape (n_q,)
+)";
+
+constexpr auto model_integrate = R"(Coordinates after motion at constant velocities dv for 1 s.
+
+Adds dv to the coordinates of joints with one number each; turns a ball by the angle |w| about w, in
+its parent's axes.
+
+Parameters
+----------
+q : array_like, shape (n_q,), or mapping of names to values
+    [rad | m]
+dv : array_like, shape (n_v,), or mapping of names to values
+    [rad | m]
+
+Returns
+-------
+numpy.ndarray, shape (n_q,)
+
+Raises
+------
+ModelError
+    As `state`.
+)";
+
+constexpr auto model_difference = R"(The dv with integrate(q0, dv) = q1, the shortest of them.
+
+It compares orientations: a quaternion and its negative are one, and differ by 0.
+
+Parameters
+----------
+q0, q1 : array_like, shape (n_q,), or mapping of names to values
+    [rad | m]
+
+Returns
+-------
+numpy.ndarray, shape (n_v,)
+    [rad | m] at most pi for each ball.
+
+Raises
+------
+ModelError
+    As `state`.
+)";
+
+constexpr auto model_normalized = R"(Coordinates with their quaternions made of length 1.
+
+Parameters
+----------
+q : array_like, shape (n_q,)
+
+Returns
+-------
+numpy.ndarray, shape (n_q,)
+
+Raises
+------
+ModelError
+    On a wrong shape, a value that is not finite, a quaternion of length 0.
+)";
+
+constexpr auto model_random = R"(Coordinates drawn at random.
+
+Quaternions are uniform over all orientations; others are uniform within their limits, and where
+there are none within +-pi rad and +-1 m.
+
+Parameters
+----------
+random : int or numpy.random.Generator, optional
+    Seed, or where numbers are drawn from.
+
+Returns
+-------
+numpy.ndarray, shape (n_q,)
 )";
 
 constexpr auto model_velocity = R"(Velocities v = M(q)^-1 p of a state.
 
 Returns
 -------
-numpy.ndarray, shape (n,)
+numpy.ndarray, shape (n_v,)
     [rad/s | m/s]
 
 Raises
@@ -83,11 +168,15 @@ StepError
 
 constexpr auto model_lagrangian = R"(L = T - V and all its first and second partials.
 
+Partials by q are along velocities, of shape (n_v,). Of a ball they are along turns exp(eta) R about
+its parent's axes, with the angular velocity in these axes held: `L_q` is no force then (the torque
+is L_q + w x L_v), and `L_qq` is not symmetric within a ball.
+
 Parameters
 ----------
-q : array_like, shape (n,), or mapping of names to values
+q : array_like, shape (n_q,), or mapping of names to values
     [rad | m]
-v : array_like, shape (n,), or mapping of names to values
+v : array_like, shape (n_v,), or mapping of names to values
     [rad/s | m/s]
 
 Returns
@@ -104,19 +193,22 @@ constexpr auto model_mass_matrix = R"(M(q) = L_vv.
 
 Parameters
 ----------
-q : array_like, shape (n,), or mapping of names to values
+q : array_like, shape (n_q,), or mapping of names to values
     [rad | m]
 
 Returns
 -------
-numpy.ndarray, shape (n, n)
+numpy.ndarray, shape (n_v, n_v)
 )";
 
 constexpr auto model_gaps = R"(Gaps phi of all pairs with their first and second partials.
 
+Partials are along velocities: `phi_q @ v` is the rate of phi, and `v @ phi_qq[i] @ v` its second
+derivative where q moves at the constant velocities v.
+
 Parameters
 ----------
-q : array_like, shape (n,), or mapping of names to values
+q : array_like, shape (n_q,), or mapping of names to values
     [rad | m]
 
 Returns
@@ -128,7 +220,7 @@ constexpr auto model_pose = R"(Pose of a link in the world; `Model::X_WL` in C++
 
 Parameters
 ----------
-q : array_like, shape (n,), or mapping of names to values
+q : array_like, shape (n_q,), or mapping of names to values
     [rad | m]
 link : str or int
     Its name or index.

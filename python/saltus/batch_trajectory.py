@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from saltus import _core
-from saltus._core import ImpactLaw, Model, ModelError, StepOptions
-from saltus.trajectory import Array, Trajectory
+from saltus._core import ImpactLaw, Model, StepOptions
+from saltus.trajectory import Array, Trajectory, check_array, index_of
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,11 +27,14 @@ class BatchTrajectory:
     ----------
     model : Model
     options : StepOptions
-    coordinate_names : tuple of str
+    coordinate_names, velocity_names : tuple of str
+        Of the columns of `q`; of those of `v` and `p`.
     t : numpy.ndarray, shape (rows,)
         [s] the same for all runs.
-    q, v, p : numpy.ndarray, shape (B, rows, n)
-        Coordinates [rad | m], velocities and momenta.
+    q : numpy.ndarray, shape (B, rows, n_q)
+        Coordinates [rad | m], of free and ball joints with unit quaternions x y z w.
+    v, p : numpy.ndarray, shape (B, rows, n_v)
+        Velocities and momenta, of free and ball joints in their parents' axes.
     kinetic, potential, shadow, total : numpy.ndarray, shape (B, rows)
         [J] as in `Trajectory`.
     impacts : numpy.ndarray of int, shape (B,)
@@ -49,6 +52,7 @@ class BatchTrajectory:
     model: Model
     options: StepOptions
     coordinate_names: tuple[str, ...]
+    velocity_names: tuple[str, ...]
     t: Array
     q: Array
     v: Array
@@ -77,6 +81,7 @@ class BatchTrajectory:
             model=core.model,
             options=core.options,
             coordinate_names=tuple(core.model.coordinate_names),
+            velocity_names=tuple(core.model.velocity_names),
             _runs=core,
             **arrays,
         )
@@ -115,14 +120,14 @@ class BatchTrajectory:
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:
-        """Return one coordinate of all runs over time.
+        """Return one coordinate, velocity or momentum of all runs over time.
 
         Parameters
         ----------
         name : str
-            Name of the coordinate.
+            Name of the coordinate, or with "v" and "p" of the velocity.
         of : {"q", "v", "p"}
-            Its value, its velocity or its momentum.
+            Which array it is a column of.
 
         Returns
         -------
@@ -131,9 +136,7 @@ class BatchTrajectory:
         Raises
         ------
         ModelError
-            On a name that is no coordinate's; lists those there are.
+            On a name that the array has not; lists those there are.
         """
-        if of not in ("q", "v", "p"):
-            raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
-        rows: Array = getattr(self, of)
-        return rows[:, :, self.model.coordinate(name)]
+        rows: Array = getattr(self, check_array(of))
+        return rows[:, :, index_of(name, of, self.coordinate_names, self.velocity_names)]

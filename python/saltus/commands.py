@@ -75,7 +75,7 @@ def info(chosen: argparse.Namespace) -> int:
     mass = sum(link.mass for link in model.links)
     print(
         f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
-        f"coordinates, {len(model.shapes)} shapes, {model.n_pairs} gaps, {mass:g} kg"
+        f"coordinates, {model.n_v} velocities, {len(model.shapes)} shapes, {model.n_pairs} gaps, {mass:g} kg"
     )
     _print_solvers(model)
     _print_table(
@@ -143,7 +143,7 @@ def _print_coordinates(model: saltus.Model) -> None:
         return "" if math.isinf(x) else f"{x:g}"
 
     rows = (
-        [c.name, c.joint, "rad" if c.angular else "m", limit(c.lower), limit(c.upper)]
+        [c.name, c.joint, c.unit, limit(c.lower), limit(c.upper)]
         for c in model.coordinates
     )
     _print_table("coordinates", ["name", "joint", "unit", "lower", "upper"], rows)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import h5py
 
 FORMAT = "saltus trajectory"
-VERSION = 1
+VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
 ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
 BOUNDS = ("max_iterations", "max_impacts", "max_impulses", "rest", "simultaneous")
 OPTIONS = ("h", "collisions", *BOUNDS)
@@ -120,7 +120,7 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
     file["impacts"] = run.impacts.astype(np.dtype(fields))
-    for name in ("coordinate_names", "pair_names", "certificates"):
+    for name in ("coordinate_names", "velocity_names", "pair_names", "certificates"):
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
     options = None if run.model is None else _urdf_options(run.model)
     if run.model is None or options is None:
@@ -153,6 +153,10 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     certificates = tuple(file["certificates"].asstr()[()]) if "certificates" in file else ()
     options = {name: file.attrs[name].item() for name in OPTIONS}
     coordinates = tuple(file["coordinate_names"].asstr()[()])
+    _refuse_angles(coordinates, file.attrs["version"], path)
+    velocities = coordinates  # of files of version 1
+    if "velocity_names" in file:
+        velocities = tuple(file["velocity_names"].asstr()[()])
     pairs = tuple(file["pair_names"].asstr()[()])
     if model is None and "urdf" in file:
         model = read_urdf(
@@ -170,11 +174,23 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
         model=model,
         options=_step_options(file, options),
         coordinate_names=coordinates,
+        velocity_names=velocities,
         pair_names=pairs,
         certificates=certificates,
         **arrays,
         **numbers,
     )
+
+
+def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> None:
+    """Raise ModelError where free or ball joints are stored as yaw, pitch and roll."""
+    for name in coordinates if version < 2 else ():
+        joint = name.removesuffix("_pitch")
+        if name != joint and {f"{joint}_yaw", f"{joint}_roll"} <= set(coordinates):
+            raise ModelError(
+                f'{path} holds joint "{joint}" as yaw, pitch and roll (format version {version}); '
+                "free and ball joints are quaternions now: run the simulation again"
+            )
 
 
 def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:

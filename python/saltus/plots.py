@@ -99,14 +99,15 @@ def _check_ending(figure: Figure, path: str | os.PathLike[str]) -> None:
 
 
 def _groups(run: Trajectory) -> list[tuple[str, list[int]]]:
-    """Return (label of the axis, coordinates) of angles and of lengths."""
+    """Return (label of the axis, coordinates) of angles, lengths and quaternions."""
     columns = range(len(run.coordinate_names))
     if run.model is None:
         return [("coordinates", list(columns))] if columns else []
-    angular = [coordinate.angular for coordinate in run.model.coordinates]
+    units = [coordinate.unit for coordinate in run.model.coordinates]
     groups = [
-        ("angles [rad]", [i for i in columns if angular[i]]),
-        ("lengths [m]", [i for i in columns if not angular[i]]),
+        ("angles [rad]", [i for i in columns if units[i] == "rad"]),
+        ("lengths [m]", [i for i in columns if units[i] == "m"]),
+        ("quaternions", [i for i in columns if units[i] == "1"]),
     ]
     return [(label, members) for label, members in groups if members]
 

@@ -94,7 +94,7 @@ def _find_row(model: Model) -> Row | None:
     if gravity == 0:
         return None
     up = -model.gravity / gravity
-    rest = np.zeros((1, model.n_q))
+    rest = model.neutral()[np.newaxis]
     centres = np.array([model.shape_poses(rest, i)[0, :3, 3] for i in range(len(model.shapes))])
     spread = centres - centres[0]
     widest = spread[np.argmax(np.linalg.norm(spread, axis=1))]

@@ -47,8 +47,8 @@ class StepBounds(TypedDict, total=False):
 
 def simulate(
     model: Model,
-    q: Mapping[str, float] | ArrayLike | None = None,
-    v: Mapping[str, float] | ArrayLike | None = None,
+    q: Mapping[str, object] | ArrayLike | None = None,
+    v: Mapping[str, ArrayLike] | ArrayLike | None = None,
     *,
     duration: float,
     h: float = 0.01,
@@ -64,10 +64,11 @@ def simulate(
     Parameters
     ----------
     model : Model
-    q : array_like, shape (n,), or mapping of names to values, optional
-        [rad | m] coordinates at the start; those not named are 0.
-    v : array_like, shape (n,), or mapping of names to values, optional
-        [rad/s | m/s] velocities at the start.
+    q : array_like, shape (n_q,), or mapping of names to values, optional
+        [rad | m] coordinates at the start; those not named are as in `Model.neutral`. The name of
+        a free or ball joint takes a Pose, a quaternion, a SciPy Rotation: see `Model`.
+    v : array_like, shape (n_v,), or mapping of names to values, optional
+        [rad/s | m/s] velocities at the start; those not named are 0.
     duration : float
         [s] a whole number of steps.
     h : float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -40,6 +41,28 @@ def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ..
     return tuple(model.pair_name(int(number)) for number in numbers)
 
 
+def check_array(of: str) -> str:
+    """Return the name of an array of columns; raise ModelError on another."""
+    if of not in ("q", "v", "p"):
+        raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
+    return of
+
+
+def index_of(
+    name: str, of: str, coordinate_names: Sequence[str], velocity_names: Sequence[str]
+) -> int:
+    """Return the column of q, v or p that has a name; raise ModelError where none has it."""
+    kind, names, others = "coordinate", coordinate_names, velocity_names
+    if of != "q":
+        kind, names, others = "velocity", velocity_names, coordinate_names
+    if name in names:
+        return list(names).index(name)
+    hint = ""
+    if name in others:
+        hint = f" (\"{name}\" is a column of {'v and p' if of == 'q' else 'q'})"
+    raise ModelError(f'no {kind} "{name}"{hint}; there are {", ".join(names)}')
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Trajectory:
     """A recorded motion: rows are states, made by `simulate` and `load`.
@@ -50,12 +73,17 @@ class Trajectory:
         None where it was loaded from a file that could not hold the model.
     options : StepOptions
     coordinate_names : tuple of str
+        Of the columns of `q`.
+    velocity_names : tuple of str
+        Of the columns of `v` and `p`; those of `q`, but for free and ball joints.
     pair_names : tuple of str
         Of all pairs; where the model has more than `LISTED_PAIRS`, of those that collided.
     t : numpy.ndarray, shape (rows,)
         [s]
-    q, v, p : numpy.ndarray, shape (rows, n)
-        Coordinates [rad | m], velocities and momenta.
+    q : numpy.ndarray, shape (rows, n_q)
+        Coordinates [rad | m], of free and ball joints with unit quaternions x y z w.
+    v, p : numpy.ndarray, shape (rows, n_v)
+        Velocities and momenta, of free and ball joints in their parents' axes.
     kinetic, potential, total : numpy.ndarray, shape (rows,)
         [J]
     shadow : numpy.ndarray, shape (rows,)
@@ -83,6 +111,7 @@ class Trajectory:
     model: Model | None
     options: StepOptions
     coordinate_names: tuple[str, ...]
+    velocity_names: tuple[str, ...]
     pair_names: tuple[str, ...]
     t: Array
     q: Array
@@ -121,6 +150,7 @@ class Trajectory:
             model=model,
             options=core.options,
             coordinate_names=tuple(model.coordinate_names),
+            velocity_names=tuple(model.velocity_names),
             pair_names=pair_names,
             impacts=impacts,
             impulses=impulses,
@@ -146,14 +176,14 @@ class Trajectory:
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:
-        """Return one coordinate over time.
+        """Return one coordinate, velocity or momentum over time.
 
         Parameters
         ----------
         name : str
-            Name of the coordinate.
+            Name of the coordinate, or with "v" and "p" of the velocity.
         of : {"q", "v", "p"}
-            Its value, its velocity or its momentum.
+            Which array it is a column of.
 
         Returns
         -------
@@ -162,15 +192,10 @@ class Trajectory:
         Raises
         ------
         ModelError
-            On a name that is no coordinate's; lists those there are.
+            On a name that the array has not; lists those there are.
         """
-        if name not in self.coordinate_names:
-            names = ", ".join(self.coordinate_names)
-            raise ModelError(f'no coordinate "{name}"; there are {names}')
-        if of not in ("q", "v", "p"):
-            raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
-        rows: Array = getattr(self, of)
-        return rows[:, self.coordinate_names.index(name)]
+        rows: Array = getattr(self, check_array(of))
+        return rows[:, index_of(name, of, self.coordinate_names, self.velocity_names)]
 
     def state(self, row: int) -> State:
         """Return the state of a row; negative rows count from the end."""

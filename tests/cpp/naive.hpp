@@ -38,7 +38,7 @@ inline NaiveMotion naive_motion(const Tree& tree, const VecX& q, const VecX& v) 
   NaiveMotion out;
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    const double s = drive.multiplier * q[drive.coordinate] + drive.offset;
+    const double s = drive.multiplier * q[drive.velocity] + drive.offset;
     const double w = turn(tree.joint[i]), d = slide(tree.joint[i]);
     Mat4 A = Mat4::Identity(), dA_ds = Mat4::Zero();
     A.topLeftCorner<3, 3>() = Eigen::AngleAxisd(w * s, Vec3::UnitZ()).toRotationMatrix();
@@ -50,7 +50,7 @@ inline NaiveMotion naive_motion(const Tree& tree, const VecX& q, const VecX& v) 
     const Mat4 X_WP = parent < 0 ? Mat4(Mat4::Identity()) : out.X[parent];
     const Mat4 dX_WP = parent < 0 ? Mat4(Mat4::Zero()) : out.dX[parent];
     const Mat4 X_PJ = homogeneous(tree.X_PJ[i]);
-    const double rate = drive.multiplier * v[drive.coordinate];
+    const double rate = drive.multiplier * v[drive.velocity];
     out.X.push_back(X_WP * X_PJ * A);
     out.dX.push_back(dX_WP * X_PJ * A + X_WP * X_PJ * dA_ds * rate);
   }

@@ -82,16 +82,16 @@ inline RandomTree random_tree(Random& random, const TreeOptions& options) {
     int parent = i - 1;
     if (i > 0 && random.chance(options.branch)) parent = random.below(i);
     if (random.chance(options.new_tree)) parent = -1;
-    Drive drive{out.tree.coordinates, 1, 0};
+    Drive drive{out.tree.n_v, 1, 0};
     if (i > 0 && random.chance(options.mimic)) {
-      drive = {random.below(out.tree.coordinates), random.uniform(-2, 2), random.uniform(-1, 1)};
+      drive = {random.below(out.tree.n_v), random.uniform(-2, 2), random.uniform(-1, 1)};
     }
     add_joint(out.tree, parent, random_joint(random), random.pose(0.5), drive);
     out.mass.body.push_back(random.body());
   }
   out.mass.gravity = random.vec3(10);
-  out.q = random.vector(out.tree.coordinates, 1.5);
-  out.v = random.vector(out.tree.coordinates, 2);
+  out.q = random.vector(out.tree.n_v, 1.5);
+  out.v = random.vector(out.tree.n_v, 2);
   return out;
 }
 

@@ -1,12 +1,26 @@
 // Models that several tests play with.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "saltus/saltus.hpp"
 
 namespace saltus::scenes {
+
+/// How far q is from the neutral configuration along one velocity, of a ball the turn about an axis.
+inline double moved(const Model& model, const VecX& q, const std::string& velocity) {
+  return model.difference(model.neutral(), q)[model.velocity_index(velocity)];
+}
+
+/// The most that q is from the neutral configuration.
+inline double farthest(const Model& model, const VecX& q) {
+  return model.difference(model.neutral(), q).cwiseAbs().maxCoeff();
+}
+
+/// The angle between -pi and pi that differs from `angle` by whole turns.
+inline double within_a_turn(double angle) { return std::remainder(angle, 2 * std::acos(-1.0)); }
 
 struct Cradle {
   int balls = 3;

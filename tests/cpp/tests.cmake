@@ -1,9 +1,11 @@
 # Every .cpp file of the C++ tests, floor by floor: the files of SALTUS_TEST_<floor> make the program test_<floor>.
 # A new file is appended here by whoever adds it, relative to tests/cpp; a floor without files makes no program.
 set(SALTUS_TEST_spatial
+  spatial/test_rotation.cpp
   spatial/test_spatial.cpp
 )
 set(SALTUS_TEST_tree
+  tree/test_coordinates.cpp
   tree/test_kinematics.cpp
   tree/test_tree.cpp
 )
@@ -12,6 +14,7 @@ set(SALTUS_TEST_lagrangian
   plain/composite.cpp
   plain/energy.cpp
   lagrangian/test_arc_matrix.cpp
+  lagrangian/test_balls.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
   lagrangian/test_no_allocation.cpp
@@ -47,6 +50,7 @@ set(SALTUS_TEST_model
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_balls.cpp
   variational/test_borders.cpp
   variational/test_certificate.cpp
   variational/test_contact_space.cpp

@@ -7,6 +7,9 @@
 //   moved_j  = moved_P + sway(c) + x_j |slide per unit|
 //   sway(c)  = min(turned_G, 2) |c| + min(x_P, 2) |c off P's axis|      G: the parent of P
 //
+// A ball is one joint, its third, with x the angle that it turns by and any axis; its first two
+// are at rest.
+//
 // sway(c) is the most that the turning of P moves a point c fixed in it: a turn by t moves a unit
 // vector by no more than min(t, 2), and P's own turn only what is off its axis.
 #include "saltus/collision/broad_phase.hpp"
@@ -37,7 +40,9 @@ constexpr double plane = std::numeric_limits<double>::infinity();
 
 double change(const Tree& tree, const VecRef& dq, int joint) {
   const Drive& drive = tree.drive[joint];
-  return std::abs(drive.multiplier * dq[drive.coordinate]);
+  const Joint& j = tree.joint[joint];
+  if (j.is_ball()) return j.axis == 2 ? dq.segment<3>(drive.velocity - 2).norm() : 0;
+  return std::abs(drive.multiplier * dq[drive.velocity]);
 }
 
 /// The most a point at `c_W` from joint frame P's origin moves because P turns.
@@ -46,7 +51,8 @@ double sway(const Tree& tree, const Kinematics& kin, const VecRef& dq, const Bro
   if (P < 0) return 0;
   double own = 0;
   if (tree.joint[P].turns()) {
-    own = std::fmin(change(tree, dq, P), 2) * c_W.cross(kin.joint[P].R.col(2)).norm();
+    const double off = tree.joint[P].is_ball() ? c_W.norm() : c_W.cross(kin.joint[P].R.col(2)).norm();
+    own = std::fmin(change(tree, dq, P), 2) * off;
   }
   const int G = tree.parent[P];
   return own + (G < 0 ? 0 : std::fmin(bp.turned[G], 2) * c_W.norm());

@@ -12,6 +12,8 @@
 //   |P''|  <= B = sum R_l ((T_l + x_l)^2 - T_l^2)      (l turns)    sum 2 x_l T_l    (l slides)
 //   |P'''| <= C = sum R_l ((T_l + x_l)^3 - T_l^3)                   sum 3 x_l T_l^2
 //
+// A ball is one joint that turns about one axis, its third; its first two are at rest.
+//
 // R_l is the reach of joint l: its axis' distance to the next joint's origin and from there the
 // placements one after the other, each at its longest on the chord, to P if l is on a's branch.
 // On b's branch the path ends at b's core, and P is no farther from it than phi, the radii and a's
@@ -43,10 +45,18 @@ struct Path {
   double from_axis() const {
     return std::sqrt(std::max(first.head<2>().squaredNorm(), last.head<2>().squaredNorm())) + rest;
   }
+  double from_axis(const Vec3& axis) const {
+    return std::max(axis.cross(first).norm(), axis.cross(last).norm()) + rest;
+  }
   double from_origin() const {
     return std::sqrt(std::max(first.squaredNorm(), last.squaredNorm())) + rest;
   }
 };
+
+/// Axis of a ball that turns, in the frame that it carries: it is the same all the way.
+Vec3 axis_of_ball(const Chord& chord, int joint) {
+  return chord.start_of_ball(joint).transpose() * chord.turn_of_ball(joint).normalized();
+}
 
 /// Calls visit(l, x_l, R_l) for each joint of the branch that carries `shape`, from the shape up.
 /// Returns the longest path from the common ancestor to the shape's core.
@@ -57,7 +67,8 @@ double walk_branch(const Chord& chord, const Placed& shape, double sign, Iterato
   for (; k != end && k->sign == sign; ++k) {
     const int l = k->joint;
     const double w = chord.rate(l), x = chord.start(l), h = chord.slide_per_unit(l);
-    const double lever = chord.tree.joint[l].turns() ? path.from_axis() : 0;
+    double lever = chord.tree.joint[l].turns() ? path.from_axis() : 0;
+    if (chord.tree.joint[l].is_ball()) lever = w > 0 ? path.from_axis(axis_of_ball(chord, l)) : 0;
     visit(l, std::abs(w), std::sqrt(lever * lever + h * h));
     const Pose& X_PJ = chord.tree.X_PJ[l];
     const Vec3 axis = h * X_PJ.R.col(2);

@@ -6,6 +6,8 @@
 //   r'  = Rz (p' + w z x p) + h w z
 //   r'' = Rz (p'' + 2 w z x p' + w^2 z x (z x p))
 //
+// A ball turns a point by E R, E = exp(s f) about its axis and R its start, and has f x for w z x.
+//
 // A walk up a branch goes by these; a walk down by their inverse, which is the same with x, w and
 // the placement reversed.
 #include <cmath>
@@ -39,10 +41,39 @@ void turn(MovingPoint& P, double angle, double w) {
   P.p = Rz(P.p);
 }
 
+/// By E = exp(s f), s of the chord.
+void turn(MovingPoint& P, const Mat3& E, const Vec3& f) {
+  const Vec3 f_x_p = f.cross(P.p);
+  P.a = E * (P.a + 2 * f.cross(P.v) + f.cross(f_x_p));
+  P.v = E * (P.v + f_x_p);
+  P.p = E * P.p;
+}
+
+MovingPoint turned(const Mat3& R, const MovingPoint& P) { return {R * P.p, R * P.v, R * P.a}; }
+
+void turn_by_ball(const Chord& chord, int joint, double s, MovingPoint& P) {
+  const Vec3 f = chord.turn_of_ball(joint);
+  P = turned(chord.start_of_ball(joint), P);
+  turn(P, quaternion_exp(s * f).toRotationMatrix(), f);
+}
+
+void turn_back_by_ball(const Chord& chord, int joint, double s, MovingPoint& P) {
+  const Vec3 f = -chord.turn_of_ball(joint);
+  turn(P, quaternion_exp(s * f).toRotationMatrix(), f);
+  P = turned(chord.start_of_ball(joint).transpose(), P);
+}
+
+bool is_third_of_ball(const Chord& chord, int joint) {
+  const Joint& j = chord.tree.joint[joint];
+  return j.is_ball() && j.axis == 2;
+}
+
 void go_up(const Chord& chord, int joint, double s, MovingPoint& P) {
+  if (is_third_of_ball(chord, joint)) turn_by_ball(chord, joint, s, P);
+  const bool is_ball = chord.tree.joint[joint].is_ball();
   const double w = chord.rate(joint), x = chord.start(joint) + s * w;
   const double h = chord.slide_per_unit(joint);
-  if (chord.tree.joint[joint].turns()) turn(P, x, w);
+  if (chord.tree.joint[joint].turns() && !is_ball) turn(P, x, w);
   P.p.z() += h * x;
   P.v.z() += h * w;
   const Pose& X_PJ = chord.tree.X_PJ[joint];
@@ -57,7 +88,9 @@ void go_down(const Chord& chord, int joint, double s, MovingPoint& P) {
   P = {R_JP * (P.p - X_PJ.p), R_JP * P.v, R_JP * P.a};
   P.p.z() -= h * x;
   P.v.z() -= h * w;
-  if (chord.tree.joint[joint].turns()) turn(P, -x, -w);
+  const bool is_ball = chord.tree.joint[joint].is_ball();
+  if (chord.tree.joint[joint].turns() && !is_ball) turn(P, -x, -w);
+  if (is_third_of_ball(chord, joint)) turn_back_by_ball(chord, joint, s, P);
 }
 
 /// The origin of a shape's frame and the points one along each of its axes.

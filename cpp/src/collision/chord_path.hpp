@@ -3,9 +3,13 @@
 // Seen from a frame in which b's solid is at rest: b's own; but where b is a sphere, one that goes
 // with its centre and keeps the directions of the joint frame above both branches. So two balls
 // that swing side by side are at rest to each other, although both turn.
+//
+// The three joints of a ball act as one, its third: along the chord it turns from R(q) about one
+// axis, that of its three numbers of dq, by their length. The first two are at rest.
 #pragma once
 
 #include "saltus/collision/contact.hpp"
+#include "saltus/tree/coordinates.hpp"
 
 namespace saltus {
 
@@ -25,17 +29,26 @@ struct Chord {
   bool a_is_ball() const {
     return std::holds_alternative<Sphere>(a().shape) && pair.inward.empty();
   }
-  double start(int joint) const {  ///< [rad | m] displacement of a joint at s = 0
+  /// [rad | m] displacement of a joint at s = 0
+  double start(int joint) const { return displacement(tree, joint, q); }
+  /// [rad | m] its change over the whole chord
+  double rate(int joint) const {
+    const Joint& j = tree.joint[joint];
+    if (j.is_ball()) return j.axis == 2 ? turn_of_ball(joint).norm() : 0;
     const Drive& drive = tree.drive[joint];
-    return drive.multiplier * q[drive.coordinate] + drive.offset;
+    return drive.multiplier * dq[drive.velocity];
   }
-  double rate(int joint) const {  ///< [rad | m] its change over the whole chord
-    const Drive& drive = tree.drive[joint];
-    return drive.multiplier * dq[drive.coordinate];
+  /// [rad] axis times angle of a ball, in the axes of its placement; `joint` is its third
+  Vec3 turn_of_ball(int joint) const {
+    return dq.segment<3>(tree.drive[joint].velocity - 2);
+  }
+  /// R of a ball at s = 0; likewise
+  Mat3 start_of_ball(int joint) const {
+    return quaternion(ball_of(tree, joint), q).toRotationMatrix();
   }
   double slide_per_unit(int joint) const {  ///< motion along the axis per unit of displacement
     const Joint& j = tree.joint[joint];
-    return j.kind == Joint::Kind::prismatic ? 1 : j.pitch;
+    return j.kind == Joint::Kind::prismatic ? 1 : j.pitch;  // a ball has none
   }
 };
 

@@ -30,6 +30,12 @@ Vec3 velocity_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, c
   return k.sign * (angular(S).cross(P) + linear(S));
 }
 
+/// Joints of one ball: the order in which they turn is none.
+bool are_of_one_ball(const Tree& tree, int i, int l) {
+  return tree.joint[i].is_ball() && tree.joint[l].is_ball() &&
+         i - tree.joint[i].axis == l - tree.joint[l].axis;
+}
+
 /// The twist [w; u] of a against b about P for unit speed of one joint of the chain.
 Vec6 twist_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
   Vec6 t;
@@ -97,7 +103,7 @@ void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                       Eigen::Ref<VecX> phi_q) {
   for (const ChainJoint& k : pair.chain) {
     const Drive& drive = tree.drive[k.joint];
-    phi_q[drive.coordinate] +=
+    phi_q[drive.velocity] +=
         drive.multiplier * gap.n_W.dot(velocity_of(tree, kin, k, gap.center_W));
   }
 }
@@ -113,10 +119,15 @@ void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, 
     for (std::size_t i = 0; i <= l; ++i) {
       const ChainJoint& k = pair.chain[i];
       const Drive& drive_i = tree.drive[k.joint];
-      const double second = twist_of(tree, kin, k, gap.center_W).dot(C_t);
+      const Vec6 t_i = twist_of(tree, kin, k, gap.center_W);
+      double second = t_i.dot(C_t);
+      if (i < l && are_of_one_ball(tree, k.joint, pair.chain[l].joint)) {  // the mean of both orders
+        const Vec3 w_i = t_i.head<3>(), u_i = t_i.tail<3>(), w_l = t_l.head<3>(), u_l = t_l.tail<3>();
+        second += 0.5 * gap.n_W.dot(w_l.cross(u_i) - w_i.cross(u_l));
+      }
       const double value = drive_i.multiplier * drive_l.multiplier * second;
-      phi_qq(drive_i.coordinate, drive_l.coordinate) += value;
-      if (i < l) phi_qq(drive_l.coordinate, drive_i.coordinate) += value;
+      phi_qq(drive_i.velocity, drive_l.velocity) += value;
+      if (i < l) phi_qq(drive_l.velocity, drive_i.velocity) += value;
     }
   }
 }

@@ -25,7 +25,7 @@ void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pa
     const Vec6& S = kin.joint[k.joint].S;
     const Vec3 P = P_W - kin.origin[tree.root[k.joint]];
     const Vec3 velocity = k.sign * (angular(S).cross(P) + linear(S));
-    row[drive.coordinate] += drive.multiplier * d_W.dot(velocity);
+    row[drive.velocity] += drive.multiplier * d_W.dot(velocity);
   }
 }
 

@@ -10,7 +10,7 @@ void add_pairs(const Tree& tree, const PackedTree& t, const SecondPartials& rows
                LagrangianPartials& L) {
   for_each_pair(t, [&](int j, int i, long entry) {
     const Drive &dj = tree.drive[j], &di = tree.drive[i];
-    const int cj = dj.coordinate, ci = di.coordinate;
+    const int cj = dj.velocity, ci = di.velocity;
     const double scale = di.multiplier * dj.multiplier;
     const double vv = scale * number(rows.L_vv, entry), qq = scale * number(rows.L_qq, entry);
     L.L_vv(ci, cj) += vv;
@@ -21,6 +21,13 @@ void add_pairs(const Tree& tree, const PackedTree& t, const SecondPartials& rows
     L.L_qq(cj, ci) += qq;
     L.L_vq(cj, ci) += scale * number(rows.L_qv, entry);
   });
+  for (const PackedBall& ball : t.balls) {
+    const double* lower = at(rows.L_qq_lower, ball.slot[2]);
+    const int c = ball.velocity;
+    L.L_qq(c + 1, c) = lower[0];
+    L.L_qq(c + 2, c) = lower[lanes];
+    L.L_qq(c + 2, c + 1) = lower[2 * lanes];
+  }
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   second_pass(t, w);
   multiply_pairs(t, w, rows);
 
-  const int n = tree.coordinates;
+  const int n = tree.n_v;
   LagrangianPartials L{0, VecX(n), VecX(n), MatX::Zero(n, n), MatX::Zero(n, n), MatX::Zero(n, n)};
   gather(tree, t, w.first, 0, L.L_v);
   gather(tree, t, w.first, 1, L.L_q);
@@ -54,12 +61,12 @@ MatX mass_matrix(const Tree& tree, const PackedTree& t, const VecRef& q) {
   place(t, w);
   mass_pass(t, w);
   multiply_pairs(t, w, rows);
-  MatX M = MatX::Zero(tree.coordinates, tree.coordinates);
+  MatX M = MatX::Zero(tree.n_v, tree.n_v);
   for_each_pair(t, [&](int j, int i, long entry) {
     const Drive &dj = tree.drive[j], &di = tree.drive[i];
     const double M_ij = di.multiplier * dj.multiplier * number(rows.L_vv, entry);
-    M(di.coordinate, dj.coordinate) += M_ij;
-    if (i != j) M(dj.coordinate, di.coordinate) += M_ij;
+    M(di.velocity, dj.velocity) += M_ij;
+    if (i != j) M(dj.velocity, di.velocity) += M_ij;
   });
   return M;
 }

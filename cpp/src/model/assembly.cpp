@@ -33,27 +33,37 @@ Model Assembly::build() {
   return Model(std::move(m_));
 }
 
-Assembly::Place Assembly::add_frame(const Place& at, const Vec3& axis, Joint joint, int spec,
-                                    int coordinate) {
-  const Mat3 A = rotation_z_to(axis);
+Assembly::Place Assembly::add_frame(const Place& at, const Axis& axis, int spec, int velocity) {
+  JointInfo& info = m_.joints.back();
+  const auto note = [&](int joint, int v) {
+    info.frames.push_back(joint);
+    info.velocities.push_back(v);
+  };
+  if (axis.kind == Joint::Kind::ball) {
+    const int last = add_ball(m_.tree, at.joint, at.X_JF);
+    for (int k = 0; k < 3; ++k) note(last - 2 + k, velocity + k);
+    const int first = m_.tree.balls.back().coordinate;
+    for (int k = 0; k < 4; ++k) info.coordinates.push_back(first + k);
+    return {last, {}};
+  }
+  const Mat3 A = rotation_z_to(axis.axis);
   Drive drive = drive_[spec];
-  drive.coordinate = coordinate;
+  drive.velocity = velocity;
+  const Joint joint{axis.kind, d_.joints[spec].pitch};
   const int i = add_joint(m_.tree, at.joint, joint, at.X_JF * Pose{A, Vec3::Zero()}, drive);
-  m_.joints.back().frames.push_back(i);
-  m_.joints.back().coordinates.push_back(coordinate);
+  note(i, velocity);
+  info.coordinates.push_back(m_.tree.coordinate[velocity]);
   return {i, {A.transpose(), Vec3::Zero()}};
 }
 
 Assembly::Place Assembly::add_joint_frames(const Place& parent, int spec) {
   const JointSpec& joint = d_.joints[spec];
-  m_.joints.push_back({joint.name, joint.type, joint.parent, joint.child, {}, {}});
+  m_.joints.push_back({joint.name, joint.type, joint.parent, joint.child, {}, {}, {}});
   const Mat3 A =
       has_axis(joint.type) ? rotation_z_to(joint.axis.normalized()) : Mat3(Mat3::Identity());
   Place at{parent.joint, parent.X_JF * joint.X_PJ * Pose{A, Vec3::Zero()}};
-  int coordinate = first_coordinate_[base_[spec]];
-  for (const Axis& axis : composition(joint.type)) {
-    at = add_frame(at, axis.axis, {axis.kind, joint.pitch}, spec, coordinate++);
-  }
+  int velocity = first_velocity_[base_[spec]];
+  for (const Axis& axis : composition(joint.type)) at = add_frame(at, axis, spec, velocity++);
   at.X_JF = at.X_JF * Pose{A.transpose(), Vec3::Zero()};
   return at;
 }
@@ -70,7 +80,6 @@ void Assembly::add_frames() {
     const LinkSpec& link = d_.links[i];
     m_.links.push_back({link.name, place_[i].joint, place_[i].X_JF, link.inertia.mass});
   }
-  m_.tree.coordinates = static_cast<int>(m_.coordinates.size());
 }
 
 }  // namespace saltus

@@ -26,11 +26,12 @@ class Assembly {
     Pose X_JF;
   };
 
-  /// One of the one-degree joints that a joint is composed of.
+  /// One of the one-degree joints, or the ball, that a joint is composed of.
   struct Axis {
-    const char* suffix;  ///< of the coordinate's name
+    const char* suffix;           ///< of the coordinate's name; before x, y, z, w of a ball
+    const char* velocity_suffix;  ///< likewise of the velocity's
     Joint::Kind kind;
-    Vec3 axis;  ///< in the joint's own frame turned so that its axis is z
+    Vec3 axis;  ///< in the joint's own frame turned so that its axis is z; not of a ball
   };
 
   // topology.cpp
@@ -39,13 +40,14 @@ class Assembly {
   void resolve_mimic();  // flattens chains of mimics into drives
   void number_coordinates();
   static std::vector<Axis> composition(JointType type);
+  static bool has_one_coordinate(JointType type);
   /// Index of a link, or ModelError: "<user> link "<name>", which does not exist; links are ...".
   int link_index(const std::string& name, const std::string& user, const std::string& element,
                  const std::string& culprit) const;
 
   // assembly.cpp
   void add_frames();  // joints -> tree, links -> places
-  Place add_frame(const Place& at, const Vec3& axis, Joint joint, int spec, int coordinate);
+  Place add_frame(const Place& at, const Axis& axis, int spec, int velocity);
   Place add_joint_frames(const Place& parent, int spec);
 
   // masses.cpp
@@ -73,7 +75,7 @@ class Assembly {
   std::vector<int> order_;               // specs, depth first
   std::vector<Drive> drive_;             // (specs) multiplier and offset on the base joint
   std::vector<int> base_;                // (specs) the joint whose coordinate drives this one
-  std::vector<int> first_coordinate_;    // (specs)
+  std::vector<int> first_velocity_;      // (specs)
   std::vector<Place> place_;             // (links)
   std::vector<int> group_;               // (links) first link of those welded together
   using Pairs = std::set<std::pair<int, int>>;  // of indices, the lesser first

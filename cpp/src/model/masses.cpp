@@ -5,6 +5,7 @@
 
 #include "model/assembly.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/tree/coordinates.hpp"
 
 namespace saltus {
 namespace {
@@ -57,20 +58,21 @@ double locked_inertia(const Packed& w, int slot) {
 std::vector<FeltInertia> felt_inertias(const Tree& tree, const PackedTree& t) {
   Packed w(t);
   PackedMatrix M(tree, t);
-  VecX q(tree.coordinates);
-  for (int i = 0; i < q.size(); ++i) q[i] = 0.3 + 0.1 * (i % 7);  // no special configuration
+  VecX q = neutral(tree), step(tree.n_v);
+  for (int i = 0; i < step.size(); ++i) step[i] = 0.3 + 0.1 * (i % 7);  // no special configuration
+  integrate(tree, q, 1, step, q);
   set_coordinates(tree, t, q, w);
   place(t, w);
   mass_pass(t, w);
 
-  std::vector<FeltInertia> felt(static_cast<std::size_t>(tree.coordinates), {0, 0, 0});
+  std::vector<FeltInertia> felt(static_cast<std::size_t>(tree.n_v), {0, 0, 0});
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    felt[drive.coordinate].scale += drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
+    felt[drive.velocity].scale += drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
   }
   factorize(tree, t, w, 0, M);
   const VecX dense_pivots = tree.one_to_one ? VecX() : pivots_from_last(M.dense);
-  for (int c = 0; c < tree.coordinates; ++c) {
+  for (int c = 0; c < tree.n_v; ++c) {
     felt[c].free = tree.one_to_one ? 1 / *at(M.inverse, t.slot[c]) : dense_pivots[c];
     felt[c].locked = tree.one_to_one ? locked_inertia(w, t.slot[c]) : M.dense(c, c);
   }
@@ -109,10 +111,11 @@ void Assembly::check_moments() {
 // at the first such pivot, the last in order, and those before it are not to be looked at.
 void Assembly::check_masses() const {
   const std::vector<FeltInertia> felt = felt_inertias(m_.tree, m_.packed);
-  for (int c = m_.tree.coordinates - 1; c >= 0; --c) {
+  for (int c = m_.tree.n_v - 1; c >= 0; --c) {
     // 1e-12, 1e-14: rounding of the sweep and of one sum, with a few digits to spare
     if (felt[c].free > 1e-12 * felt[c].locked && felt[c].locked > 1e-14 * felt[c].scale) continue;
-    const JointSpec& joint = d_.joints[joint_.at(m_.coordinates[c].joint)];
+    const int coordinate = m_.tree.coordinate[c];
+    const JointSpec& joint = d_.joints[joint_.at(m_.coordinates[coordinate].joint)];
     const bool gives_way = felt[c].locked > 1e-14 * felt[c].scale;
     throw ModelError("joint " + quoted(joint.name) + " moves no mass" +
                          (gives_way ? " of its own: a joint below it undoes its motion, as one on "

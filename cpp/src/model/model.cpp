@@ -1,5 +1,6 @@
 #include "saltus/model/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -18,25 +19,22 @@ std::vector<std::string> names_of(const Items& items) {
   return names;
 }
 
-template <class Items>
-int index_of(const Items& items, const std::string& kind, const std::string& name) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].name == name) return static_cast<int>(i);
-  }
-  throw ModelError("no " + kind + " \"" + name + "\"; there are " + list_names(names_of(items)),
-                   kind, name);
+int index_of(const std::vector<std::string>& names, const std::string& kind,
+             const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw ModelError("no " + kind + " \"" + name + "\"; there are " + list_names(names), kind, name);
 }
 
-VecX from_names(const Model& model, const std::map<std::string, double>& values) {
-  VecX x = VecX::Zero(model.n_q());
+void set_by_name(const std::map<std::string, double>& values, const std::string& kind,
+                 const std::vector<std::string>& names, VecX& x) {
   for (const auto& [name, value] : values) {
     if (!std::isfinite(value)) {
-      throw ModelError("coordinate \"" + name + "\" = " + std::to_string(value) + " is not finite",
-                       "coordinate", name);
+      throw ModelError(kind + " \"" + name + "\" = " + std::to_string(value) + " is not finite", kind,
+                       name);
     }
-    x[model.coordinate(name)] = value;
+    x[index_of(names, kind, name)] = value;
   }
-  return x;
 }
 
 void check_pair(int pair, int pairs) {
@@ -55,10 +53,10 @@ std::string list_names(const std::vector<std::string>& names) {
   return list;
 }
 
-void check_vector(const VecRef& x, int n, const std::string& what) {
+void check_vector(const VecRef& x, int n, const std::string& what, const std::string& unit) {
   if (x.size() != n) {
     throw ModelError(what + " has " + std::to_string(x.size()) + " entries; the model has " +
-                     std::to_string(n) + " coordinates");
+                     std::to_string(n) + " " + unit);
   }
   for (int i = 0; i < n; ++i) {
     if (std::isfinite(x[i])) continue;
@@ -69,10 +67,16 @@ void check_vector(const VecRef& x, int n, const std::string& what) {
 }
 
 int Model::coordinate(const std::string& name) const {
-  return index_of(data_->coordinates, "coordinate", name);
+  return index_of(names_of(data_->coordinates), "coordinate", name);
 }
 
-int Model::link(const std::string& name) const { return index_of(data_->links, "link", name); }
+int Model::velocity_index(const std::string& name) const {
+  return index_of(data_->velocity_names, "velocity", name);
+}
+
+int Model::link(const std::string& name) const {
+  return index_of(names_of(data_->links), "link", name);
+}
 
 std::string Model::pair_name(int pair) const {
   return saltus::pair_name(data_->shapes, this->pair(pair));
@@ -115,24 +119,27 @@ ContactProperties Model::contact_properties(int pair) const {
 
 State Model::state(const std::map<std::string, double>& q, const std::map<std::string, double>& v,
                    double t) const {
-  return state(from_names(*this, q), from_names(*this, v), t);
+  VecX all_q = neutral(), all_v = VecX::Zero(n_v());
+  set_by_name(q, "coordinate", names_of(data_->coordinates), all_q);
+  set_by_name(v, "velocity", data_->velocity_names, all_v);
+  return state(all_q, all_v, t);
 }
 
 State Model::state(const VecRef& q, const VecRef& v, double t) const {
-  check_vector(q, n_q(), "q");
-  check_vector(v, n_q(), "v");
+  const VecX unit_q = checked_q(q, "q");
+  check_vector(v, n_v(), "v", "velocities");
   if (!std::isfinite(t)) throw ModelError("t is not finite");
-  return {t, q, lagrangian(q, v).L_v};
+  return {t, unit_q, lagrangian(unit_q, v).L_v};
 }
 
 VecX Model::velocity(const State& state) const {
-  check_vector(state.q, n_q(), "state.q");
-  check_vector(state.p, n_q(), "state.p");
+  const VecX q = checked_q(state.q, "state.q");
+  check_vector(state.p, n_v(), "state.p", "velocities");
   const Tree& tree = data_->tree;
   const PackedTree& packed = data_->packed;
   Packed w(packed);
   PackedMatrix M(tree, packed);
-  set_coordinates(tree, packed, state.q, w);
+  set_coordinates(tree, packed, q, w);
   place(packed, w);
   mass_pass(packed, w);
   VecX v = state.p;
@@ -144,14 +151,13 @@ VecX Model::velocity(const State& state) const {
 }
 
 LagrangianPartials Model::lagrangian(const VecRef& q, const VecRef& v) const {
-  check_vector(q, n_q(), "q");
-  check_vector(v, n_q(), "v");
-  return saltus::lagrangian(data_->tree, data_->packed, q, v);
+  const VecX unit_q = checked_q(q, "q");
+  check_vector(v, n_v(), "v", "velocities");
+  return saltus::lagrangian(data_->tree, data_->packed, unit_q, v);
 }
 
 MatX Model::mass_matrix(const VecRef& q) const {
-  check_vector(q, n_q(), "q");
-  return saltus::mass_matrix(data_->tree, data_->packed, q);
+  return saltus::mass_matrix(data_->tree, data_->packed, checked_q(q, "q"));
 }
 
 double Model::kinetic_energy(const State& state) const {
@@ -159,37 +165,34 @@ double Model::kinetic_energy(const State& state) const {
 }
 
 double Model::potential_energy(const VecRef& q) const {
-  check_vector(q, n_q(), "q");
   Packed w(data_->packed);
-  set_coordinates(data_->tree, data_->packed, q, w);
+  set_coordinates(data_->tree, data_->packed, checked_q(q, "q"), w);
   place(data_->packed, w);
   mass_pass(data_->packed, w);
   return saltus::potential_energy(data_->packed, w);
 }
 
 Pose Model::X_WL(const VecRef& q, int link) const {
-  check_vector(q, n_q(), "q");
   const Link& l = data_->links.at(static_cast<std::size_t>(link));
   Kinematics kin(data_->tree);
-  set_configuration(data_->tree, q, kin);
+  set_configuration(data_->tree, checked_q(q, "q"), kin);
   return kin.X_WJ(data_->tree, l.joint) * l.X_JL;
 }
 
 Gaps Model::gaps(const VecRef& q) const {
-  check_vector(q, n_q(), "q");
   const ModelData& m = *data_;
   Kinematics kin(m.tree);
-  set_configuration(m.tree, q, kin);
+  set_configuration(m.tree, checked_q(q, "q"), kin);
   const auto rows = static_cast<Eigen::Index>(m.pairs.size());
-  if (static_cast<double>(rows) * (n_q() + 2.0) * n_q() > most_dense) {
+  if (static_cast<double>(rows) * (n_v() + 2.0) * n_v() > most_dense) {
     throw ModelError("gaps of " + std::to_string(rows) + " pairs with Hessians of " +
-                     std::to_string(n_q()) + " coordinates take more than 1 GiB; " +
+                     std::to_string(n_v()) + " velocities take more than 1 GiB; " +
                      "take pair(k) and pair_gap one by one");
   }
   Gaps out;
   out.phi.resize(rows);
-  out.phi_q.setZero(rows, n_q());
-  out.phi_qq.assign(static_cast<std::size_t>(rows), MatX::Zero(n_q(), n_q()));
+  out.phi_q.setZero(rows, n_v());
+  out.phi_qq.assign(static_cast<std::size_t>(rows), MatX::Zero(n_v(), n_v()));
   out.normal.resize(rows, 3);
   out.p_WA.resize(rows, 3);
   out.p_WB.resize(rows, 3);
@@ -202,7 +205,7 @@ Gaps Model::gaps(const VecRef& q) const {
     out.normal.row(i) = g.n_W;
     out.p_WA.row(i) = g.p_WA;
     out.p_WB.row(i) = g.p_WB;
-    VecX row = VecX::Zero(n_q());
+    VecX row = VecX::Zero(n_v());
     if (!silent) add_gap_gradient(m.tree, kin, pair, g, row);
     out.phi_q.row(i) = row;
     if (!silent) add_gap_hessian(m.tree, kin, pair, g, out.phi_qq[i]);

@@ -3,15 +3,20 @@
 namespace saltus {
 namespace {
 
-void check_rows(const Model& model, const Eigen::Ref<const MatX>& x, const std::string& what) {
-  if (x.cols() != model.n_q()) {
+void check_rows(const Eigen::Ref<const MatX>& x, int n, const std::string& what,
+                const std::string& unit) {
+  if (x.cols() != n) {
     throw ModelError("rows of " + what + " have " + std::to_string(x.cols()) +
-                     " entries; the model has " + std::to_string(model.n_q()) + " coordinates");
+                     " entries; the model has " + std::to_string(n) + " " + unit);
   }
   for (Eigen::Index row = 0; row < x.rows(); ++row) {
     if (x.row(row).allFinite()) continue;
     throw ModelError("row " + std::to_string(row) + " of " + what + " is not finite");
   }
+}
+
+VecX row_of(const Model& model, const Eigen::Ref<const MatX>& q, Eigen::Index row) {
+  return model.checked_q(q.row(row).transpose(), "row " + std::to_string(row) + " of q");
 }
 
 }  // namespace
@@ -27,11 +32,11 @@ AttachedFrame shape_frame(const Model& model, int shape) {
 }
 
 MatX poses(const Model& model, const AttachedFrame& frame, const Eigen::Ref<const MatX>& q) {
-  check_rows(model, q, "q");
+  check_rows(q, model.n_q(), "q", "coordinates");
   Kinematics kin(model->tree);
   MatX out(q.rows(), 16);
   for (Eigen::Index row = 0; row < q.rows(); ++row) {
-    set_configuration(model->tree, q.row(row).transpose(), kin);
+    set_configuration(model->tree, row_of(model, q, row), kin);
     const Pose X_WF = kin.X_WJ(model->tree, frame.joint) * frame.X_JF;
     Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(out.row(row).data());
     T << X_WF.R, X_WF.p, 0, 0, 0, 1;
@@ -41,8 +46,8 @@ MatX poses(const Model& model, const AttachedFrame& frame, const Eigen::Ref<cons
 
 MatX velocities(const Model& model, const AttachedFrame& frame, const Eigen::Ref<const MatX>& q,
                 const Eigen::Ref<const MatX>& v) {
-  check_rows(model, q, "q");
-  check_rows(model, v, "v");
+  check_rows(q, model.n_q(), "q", "coordinates");
+  check_rows(v, model.n_v(), "v", "velocities");
   if (q.rows() != v.rows()) {
     throw ModelError("q has " + std::to_string(q.rows()) + " rows and v " +
                      std::to_string(v.rows()));
@@ -51,7 +56,7 @@ MatX velocities(const Model& model, const AttachedFrame& frame, const Eigen::Ref
   MatX out = MatX::Zero(q.rows(), 6);
   if (frame.joint < 0) return out;
   for (Eigen::Index row = 0; row < q.rows(); ++row) {
-    set_configuration(model->tree, q.row(row).transpose(), kin);
+    set_configuration(model->tree, row_of(model, q, row), kin);
     set_velocity(model->tree, v.row(row).transpose(), kin);
     const JointMotion& joint = kin.joint[static_cast<std::size_t>(frame.joint)];
     const Vec3 p = joint.p + joint.R * frame.X_JF.p;  // from O, as the twist V is

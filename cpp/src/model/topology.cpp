@@ -2,6 +2,13 @@
 #include "model/assembly.hpp"
 
 namespace saltus {
+namespace {
+
+using Numbers = std::vector<const char*>;
+const Numbers one_number = {""}, vector_numbers = {"x", "y", "z"},
+              quaternion_numbers = {"x", "y", "z", "w"};
+
+}  // namespace
 
 std::vector<Assembly::Axis> Assembly::composition(JointType type) {
   using Kind = Joint::Kind;
@@ -11,22 +18,29 @@ std::vector<Assembly::Axis> Assembly::composition(JointType type) {
       return {};
     case JointType::revolute:
     case JointType::continuous:
-      return {{"", Kind::revolute, z}};
+      return {{"", "", Kind::revolute, z}};
     case JointType::prismatic:
-      return {{"", Kind::prismatic, z}};
+      return {{"", "", Kind::prismatic, z}};
     case JointType::helical:
-      return {{"", Kind::helical, z}};
+      return {{"", "", Kind::helical, z}};
     case JointType::planar:
-      return {{"_x", Kind::prismatic, x}, {"_y", Kind::prismatic, y}, {"_yaw", Kind::revolute, z}};
+      return {{"_x", "_x", Kind::prismatic, x},
+              {"_y", "_y", Kind::prismatic, y},
+              {"_yaw", "_yaw", Kind::revolute, z}};
     case JointType::spherical:
-      return {
-          {"_yaw", Kind::revolute, z}, {"_pitch", Kind::revolute, y}, {"_roll", Kind::revolute, x}};
+      return {{"_q", "_w", Kind::ball, z}};
     case JointType::floating:
-      return {{"_x", Kind::prismatic, x},    {"_y", Kind::prismatic, y},
-              {"_z", Kind::prismatic, z},    {"_yaw", Kind::revolute, z},
-              {"_pitch", Kind::revolute, y}, {"_roll", Kind::revolute, x}};
+      return {{"_x", "_vx", Kind::prismatic, x},
+              {"_y", "_vy", Kind::prismatic, y},
+              {"_z", "_vz", Kind::prismatic, z},
+              {"_q", "_w", Kind::ball, z}};
   }
   return {};
+}
+
+bool Assembly::has_one_coordinate(JointType type) {
+  const std::vector<Axis> axes = composition(type);
+  return axes.size() == 1 && axes[0].kind != Joint::Kind::ball;
 }
 
 int Assembly::link_index(const std::string& name, const std::string& user,
@@ -111,7 +125,7 @@ void Assembly::resolve_mimic() {
     for (std::size_t hops = 0; d_.joints[at].mimic; ++hops) {
       const Mimic& mimic = *d_.joints[at].mimic;
       if (hops > d_.joints.size()) fail("mimics itself through a cycle");
-      if (composition(d_.joints[at].type).size() != 1) {
+      if (!has_one_coordinate(d_.joints[at].type)) {
         fail("mimics another, which only joints of one coordinate can");
       }
       drive.offset += drive.multiplier * mimic.offset;
@@ -123,7 +137,7 @@ void Assembly::resolve_mimic() {
       }
       at = target->second;
     }
-    if (at != j && composition(d_.joints[at].type).size() != 1) {
+    if (at != j && !has_one_coordinate(d_.joints[at].type)) {
       fail("mimics joint " + quoted(d_.joints[at].name) + ", which has not one coordinate");
     }
     drive_.push_back(drive);
@@ -132,26 +146,38 @@ void Assembly::resolve_mimic() {
 }
 
 void Assembly::number_coordinates() {
-  first_coordinate_.assign(d_.joints.size(), -1);
-  std::set<std::string> names;
+  first_velocity_.assign(d_.joints.size(), -1);
+  std::set<std::string> names, velocity_names;
   for (const int j : order_) {
     if (base_[j] != j) continue;
     const JointSpec& joint = d_.joints[j];
-    first_coordinate_[j] = static_cast<int>(m_.coordinates.size());
+    first_velocity_[j] = static_cast<int>(m_.velocity_names.size());
     for (const Axis& axis : composition(joint.type)) {
-      Coordinate c{joint.name + axis.suffix,
-                   joint.name,
-                   axis.kind != Joint::Kind::prismatic,
-                   joint.lower,
-                   joint.upper,
-                   joint.velocity,
-                   joint.effort,
-                   joint.damping,
-                   joint.friction};
-      if (!names.insert(c.name).second) {
-        throw ModelError("two coordinates are named " + quoted(c.name), "joint", joint.name);
+      const bool is_ball = axis.kind == Joint::Kind::ball;
+      const Unit unit = is_ball                               ? Unit::one
+                        : axis.kind == Joint::Kind::prismatic ? Unit::metre
+                                                              : Unit::radian;
+      for (const char* number : is_ball ? quaternion_numbers : one_number) {
+        Coordinate c{joint.name + axis.suffix + number,
+                     joint.name,
+                     unit,
+                     joint.lower,
+                     joint.upper,
+                     joint.velocity,
+                     joint.effort,
+                     joint.damping,
+                     joint.friction};
+        if (!names.insert(c.name).second) {
+          throw ModelError("two coordinates are named " + quoted(c.name), "joint", joint.name);
+        }
+        m_.coordinates.push_back(std::move(c));
       }
-      m_.coordinates.push_back(std::move(c));
+      for (const char* number : is_ball ? vector_numbers : one_number) {
+        m_.velocity_names.push_back(joint.name + axis.velocity_suffix + number);
+        if (velocity_names.insert(m_.velocity_names.back()).second) continue;
+        throw ModelError("two velocities are named " + quoted(m_.velocity_names.back()), "joint",
+                         joint.name);
+      }
     }
   }
 }

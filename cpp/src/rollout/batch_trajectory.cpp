@@ -7,17 +7,24 @@
 namespace saltus {
 namespace {
 
-void check_array(const Model& model, const Eigen::Ref<const MatX>& x, const std::string& what) {
+std::vector<std::string> coordinate_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Coordinate& each : model->coordinates) names.push_back(each.name);
+  return names;
+}
+
+void check_array(const std::vector<std::string>& names, const std::string& unit,
+                 const Eigen::Ref<const MatX>& x, const std::string& what) {
   std::ostringstream text;
-  if (x.cols() != model.n_q()) {
+  if (x.cols() != static_cast<Eigen::Index>(names.size())) {
     text << what << " has shape (" << x.rows() << ", " << x.cols()
-         << "); it must have a column for each of the " << model.n_q() << " coordinates";
+         << "); it must have a column for each of the " << names.size() << " " << unit;
     throw ModelError(text.str());
   }
   for (Eigen::Index row = 0; row < x.rows(); ++row) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       if (std::isfinite(x(row, i))) continue;
-      text << what << "[" << row << ", \"" << model->coordinates[i].name << "\"] = " << x(row, i)
+      text << what << "[" << row << ", \"" << names[i] << "\"] = " << x(row, i)
            << " is not finite";
       throw ModelError(text.str());
     }
@@ -25,22 +32,24 @@ void check_array(const Model& model, const Eigen::Ref<const MatX>& x, const std:
 }
 
 /// Names the coordinate, as check_vector cannot.
-void check_start(const Model& model, const VecX& x, const std::string& what) {
-  for (Eigen::Index i = 0; i < x.size() && x.size() == model.n_q(); ++i) {
+void check_start(const std::vector<std::string>& names, const std::string& unit, const VecX& x,
+                 const std::string& what) {
+  const auto n = static_cast<Eigen::Index>(names.size());
+  for (Eigen::Index i = 0; i < x.size() && x.size() == n; ++i) {
     if (std::isfinite(x[i])) continue;
     std::ostringstream text;
-    text << what << "[\"" << model->coordinates[i].name << "\"] = " << x[i] << " is not finite";
+    text << what << "[\"" << names[i] << "\"] = " << x[i] << " is not finite";
     throw ModelError(text.str());
   }
-  check_vector(x, model.n_q(), what);
+  check_vector(x, static_cast<int>(n), what, unit);
 }
 
 }  // namespace
 
 std::vector<State> states(const Model& model, const Eigen::Ref<const MatX>& q,
                           const Eigen::Ref<const MatX>& v, double t) {
-  check_array(model, q, "q");
-  check_array(model, v, "v");
+  check_array(coordinate_names(model), "coordinates", q, "q");
+  check_array(model->velocity_names, "velocities", v, "v");
   if (q.rows() != v.rows()) {
     throw ModelError("q has " + std::to_string(q.rows()) + " rows and v has " +
                      std::to_string(v.rows()) + "; a row is a run");
@@ -57,8 +66,9 @@ void check_starts(const Model& model, std::span<const State> starts) {
   if (starts.empty()) throw ModelError("no starts; a batch has at least one run");
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const std::string name = "states[" + std::to_string(i) + "]";
-    check_start(model, starts[i].q, name + ".q");
-    check_start(model, starts[i].p, name + ".p");
+    check_start(coordinate_names(model), "coordinates", starts[i].q, name + ".q");
+    check_start(model->velocity_names, "velocities", starts[i].p, name + ".p");
+    model.checked_q(starts[i].q, name + ".q");
     std::ostringstream text;
     if (!std::isfinite(starts[i].t)) {
       text << name << ".t = " << starts[i].t << " is not finite";
@@ -74,7 +84,8 @@ BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<cons
   const auto runs = static_cast<Eigen::Index>(starts.size());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   BatchTrajectory out{model, plan.step, row_times(plan, starts[0].t), {}, {}, {}, {}, {}, {}, {}};
-  for (MatX* x : {&out.q, &out.v, &out.p}) x->setConstant(runs * plan.rows, model.n_q(), nan);
+  out.q.setConstant(runs * plan.rows, model.n_q(), nan);
+  for (MatX* x : {&out.v, &out.p}) x->setConstant(runs * plan.rows, model.n_v(), nan);
   for (MatX* x : {&out.kinetic, &out.potential, &out.shadow}) x->setConstant(runs, plan.rows, nan);
   out.outcome.resize(starts.size());
   for (Eigen::Index i = 0; i < runs; ++i) {

@@ -14,17 +14,18 @@ void measure(const ModelData& model, const State& state, double h, EnergyMeter& 
 }
 
 Energies energies(const Model& model, const State& state, double h) {
-  check_vector(state.q, model.n_q(), "state.q");
-  check_vector(state.p, model.n_q(), "state.p");
+  const VecX q = model.checked_q(state.q, "state.q");
+  check_vector(state.p, model.n_v(), "state.p", "velocities");
   EnergyMeter meter(*model);
-  measure(*model, state, h, meter);
+  measure(*model, {state.t, q, state.p}, h, meter);
   return meter.energy;
 }
 
 Trajectory empty_trajectory(const Model& model, Eigen::Index rows) {
   Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
   for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->setZero(rows);
-  for (MatX* x : {&run.q, &run.v, &run.p}) x->setZero(rows, model.n_q());
+  run.q.setZero(rows, model.n_q());
+  for (MatX* x : {&run.v, &run.p}) x->setZero(rows, model.n_v());
   return run;
 }
 

@@ -88,7 +88,7 @@ void check_memory(const Model& model, const Plan& plan, Eigen::Index runs) {
   // Asking the machine for more may well succeed and end in the kernel's killing the program.
   constexpr double most_gigabytes = 16;
   const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
-  const double gigabytes = doubles * (4 + 3 * model.n_q()) * 8e-9;
+  const double gigabytes = doubles * (4 + model.n_q() + 2 * model.n_v()) * 8e-9;
   if (gigabytes <= most_gigabytes) return;
   std::ostringstream text;
   if (runs > 1) text << runs << " runs of ";
@@ -111,6 +111,7 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
          Stepper& stepper, EnergyMeter& meter, Rows rows, RunOutcome& outcome) {
   stepper.forget();
   State state = start;
+  state.q = model.checked_q(start.q, "state.q");
   measure(*model, state, plan.step.h, meter);
   record(state, meter, 0, rows);
   long k = 0;

@@ -45,8 +45,8 @@ Trajectory simulate(const Model& model, const State& start, double duration,
   EnergyMeter meter(*model);
   Progress progress(options.progress);
 
-  check_vector(start.q, model.n_q(), "state.q");
-  check_vector(start.p, model.n_q(), "state.p");
+  model.checked_q(start.q, "state.q");
+  check_vector(start.p, model.n_v(), "state.p", "velocities");
   check_memory(model, plan, 1);
   Trajectory out = empty_trajectory(model, plan.rows);
   out.options = plan.step;

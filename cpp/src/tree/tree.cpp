@@ -16,10 +16,29 @@ int add_joint(Tree& tree, int parent, const Joint& joint, const Pose& X_PJ, cons
   const std::size_t root = static_cast<std::size_t>(tree.root.back());
   const std::size_t reference = static_cast<std::size_t>(tree.reference[root]);
   if (joint.turns() && !tree.joint[reference].turns()) tree.reference[root] = i;
-  if (drive.coordinate >= tree.coordinates) tree.coordinates = drive.coordinate + 1;
+  while (tree.n_v <= drive.velocity) {
+    tree.coordinate.push_back(tree.n_q++);
+    ++tree.n_v;
+  }
   tree.one_to_one =
-      tree.one_to_one && drive.coordinate == i && drive.multiplier == 1 && drive.offset == 0;
+      tree.one_to_one && drive.velocity == i && drive.multiplier == 1 && drive.offset == 0;
   return i;
+}
+
+int add_ball(Tree& tree, int parent, const Pose& X_PJ) {
+  const Ball ball{tree.joints(), tree.n_v, tree.n_q};
+  tree.balls.push_back(ball);
+  for (int axis = 0; axis < 3; ++axis) tree.coordinate.push_back(ball.coordinate);
+  tree.n_v += 3;
+  tree.n_q += 4;
+  Mat3 R = Mat3::Identity();  // from the joint before to the placement's axes
+  for (int axis = 0; axis < 3; ++axis) {
+    const Mat3 A = rotation_z_to(Vec3::Unit(axis));
+    const Pose X = axis == 0 ? X_PJ * Pose{A, Vec3::Zero()} : Pose{R * A, Vec3::Zero()};
+    parent = add_joint(tree, parent, {Joint::Kind::ball, 0, axis}, X, {ball.velocity + axis, 1, 0});
+    R = A.transpose();
+  }
+  return parent;
 }
 
 Mat3 rotation_z_to(const Vec3& axis) {

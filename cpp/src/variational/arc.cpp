@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "variational/arc_constraints.hpp"
 
@@ -34,16 +35,17 @@ bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
 void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
   const Tree& tree = model.tree;
   const PackedTree& packed = model.packed;
-  s.x = a.q + a.tau / 2 * v;
-  set_coordinates(tree, packed, s.x, s.w);
+  integrate(tree, a.q, a.tau / 2, v, s.q);
+  set_coordinates(tree, packed, s.q, s.w);
   set_rates(tree, packed, v, s.w);
   place(packed, s.w);
   move(packed, s.w);
   first_pass(packed, s.w);
   s.has_second = false;
+  arc_pass(packed, a.tau, s.w);
   scale_pass(packed, a.tau, s.w);
-  gather(tree, packed, s.w.first, 0, s.L_v);
-  gather(tree, packed, s.w.first, 1, s.L_q);
+  gather(tree, packed, s.w.arc, 0, s.L_v);
+  gather(tree, packed, s.w.arc, 1, s.L_q);
   if (packed.one_to_one) {
     gather(tree, packed, s.w.scale, 0, s.scale);
     return;
@@ -51,7 +53,7 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   s.scale.setZero();
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    s.scale[drive.coordinate] += std::abs(drive.multiplier) * *at(s.w.scale, packed.slot[i]);
+    s.scale[drive.velocity] += std::abs(drive.multiplier) * *at(s.w.scale, packed.slot[i]);
   }
 }
 
@@ -61,6 +63,9 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
 // coordinate, so that `converged` means the same for a spinning grain as for a sliding block.
 double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
                          ArcScratch& s) {
+  if (!(fastest_turn(model.tree, v, a.tau).angle < 2 * std::numbers::pi)) {
+    return std::numeric_limits<double>::infinity();
+  }
   evaluate(model, a, v, s);
   if (a.whole > 0 && (a.tau < a.whole || wants_energy(a)) && !compensate(model, a, s)) {
     return std::numeric_limits<double>::infinity();
@@ -130,10 +135,8 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
       w_end(model.packed),
       kin_end(model.tree) {
   if (law == ImpactLaw::compensated) compensation.emplace(model);
-  const int n = model.tree.coordinates;
-  for (VecX* each : {&x, &L_v, &L_q, &r, &scale, &dv, &L_qv_v, &L_vq_v, &L_qq_v}) {
-    each->setZero(n);
-  }
+  q.setZero(model.tree.n_q);
+  for (VecX* each : {&L_v, &L_q, &r, &scale, &dv, &x}) each->setZero(model.tree.n_v);
 }
 
 void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s) {
@@ -177,6 +180,7 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
   arc.tau = a.tau;
   arc.iterations = 0;
   arc.residual = residual(model, a, arc.v, s);
+  if (!std::isfinite(arc.residual)) return false;
   bool converged = is_converged(arc.residual, infinity);
   while (!converged && arc.iterations < options.max_iterations) {
     const double before = arc.residual;
@@ -185,12 +189,13 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
     if (!std::isfinite(arc.residual)) return false;
     converged = is_converged(arc.residual, before);
   }
-  finish_arc(a, arc, s);
+  finish_arc(model, a, arc, s);
   return converged;
 }
 
-void finish_arc(const ArcProblem& a, Arc& arc, const ArcScratch& s) {
-  arc.q_end = a.q + a.tau * arc.v;
+void finish_arc(const ModelData& model, const ArcProblem& a, Arc& arc, const ArcScratch& s) {
+  arc.q_start = a.q;
+  integrate(model.tree, a.q, a.tau, arc.v, arc.q_end);
   arc.p_end = a.p + a.tau * s.L_q;
   for (const ArcConstraint& c : a.constraints) arc.p_end += c.lambda * c.n;
 }
@@ -202,11 +207,8 @@ double arc_energy(const ModelData& model, const ArcProblem& a, const Arc& arc, A
 }
 
 void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate) {
-  multiply_by_rates(model.packed, s.w, s.products);
-  gather(model.tree, model.packed, s.products.by_joint, 0, s.L_vq_v);
-  gather(model.tree, model.packed, s.products.by_joint, 2, s.L_qq_v);
-  rate = -(s.L_vq_v - s.L_q) / 2 + tau / 4 * s.L_qq_v;
-  solve(model.tree, model.packed, s.J, rate);
+  set_momentum_rate(model.tree, model.packed, s.w, tau, s.products, s.x, rate);
+  solve_scaled(model.tree, model.packed, s.J, rate);
 }
 
 void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
@@ -214,6 +216,15 @@ void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate)
   set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
   set_arc_rate(model, arc.tau, s, rate);
+}
+
+FastestTurn fastest_turn(const Tree& tree, const VecX& v, double tau) {
+  FastestTurn out;
+  for (std::size_t i = 0; i < tree.balls.size(); ++i) {
+    const double angle = tau * v.segment<3>(tree.balls[i].velocity).norm();
+    if (!(angle <= out.angle)) out = {static_cast<int>(i), angle};  // also where it is no number
+  }
+  return out;
 }
 
 }  // namespace saltus

@@ -1,14 +1,18 @@
 // One arc of the discrete motion: solve for its velocity.
 //
-// Theory, section 3; paper (9), (11a), (11c), (11d), (12). An arc (q, v, tau) starts at q, ends at
-// q + tau v, and is evaluated at q_mid = q + tau v / 2. Unknown is v, so tau = 0 is regular:
+// Theory, section 3 and O; paper (9), (11a), (11c), (11d), (12). An arc (q, v, tau) starts at q,
+// ends at q (+) tau v, and is evaluated at q_mid = q (+) tau v / 2. Unknown is v, so tau = 0 is
+// regular:
 //
 //   p_start = L_v - tau/2 L_q     = p + sum lambda_i n_i           all partials at (q_mid, v)
 //   p_end   = L_v + tau/2 L_q     = p_start + tau L_q
 //   E_d     = v.L_v - L           = T + V
 //
+// For balls L_v and L_q are the L_v' and L_q' of packed.hpp. A ball may turn by less than 2 pi in
+// an arc: the equation has a pole there, and farther than that its residual counts as infinite.
+//
 // Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
-//   hold    phi(q + tau v) = target     a sustained contact; n = phi_q at the arc's start
+//   hold    phi(q (+) tau v) = target     a sustained contact; n = phi_q at the arc's start
 //   launch  E_d = target                the paper's (11c) after an impact along n
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
@@ -44,8 +48,8 @@ struct ArcConstraint {
   Pair face;
   double target = 0;  ///< [m] or [J]
   double lambda = 0;  ///< [N s] guess in, solution out
-  VecX n;             ///< (n_q) direction of the force
-  VecX row, column;   ///< (n_q) scratch: dc/dv and J^-1 n
+  VecX n;             ///< (n_v) direction of the force
+  VecX row, column;   ///< (n_v) scratch: dc/dv and J^-1 n
   // where there is friction
   int axis = 0;                    ///< of the tangents
   Vec2 tangential = Vec2::Zero();  ///< [N s] friction, along them at the arc's start
@@ -68,7 +72,8 @@ inline double whole_step(const StepOptions& options) {
 
 struct Arc {
   double tau = 0;
-  VecX v;  ///< guess in, solution out
+  VecX v;        ///< guess in, solution out
+  VecX q_start;  ///< where it starts
   VecX q_end, p_end;
   double residual = 0;  ///< scaled by the size of the terms it is a difference of
   int iterations = 0;
@@ -93,8 +98,9 @@ struct ArcScratch {
   PackedProducts products;
   Packed w_end;        ///< written by place_end
   Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
-  VecX x, L_v, L_q, r, scale, dv;
-  VecX L_qv_v, L_vq_v, L_qq_v;
+  VecX q;         ///< (n_q) scratch: where the arc is evaluated, or ends
+  VecX L_v, L_q;  ///< (n_v) of the arc: of balls L_v', L_q'
+  VecX r, scale, dv, x;
 };
 
 /// @return false when it does not converge within options.max_iterations; `arc` then holds the
@@ -127,18 +133,24 @@ double momentum_residual(const ModelData& model, const ArcProblem& problem, cons
 /// True where a residual is rounding: at the floor, or small and no longer falling.
 bool is_converged(double residual, double before);
 
-/// Writes arc.q_end and p_end from the last evaluation.
-void finish_arc(const ArcProblem& problem, Arc& arc, const ArcScratch& s);
+/// Writes arc.q_start, q_end and p_end from the last evaluation.
+void finish_arc(const ModelData& model, const ArcProblem& problem, Arc& arc, const ArcScratch& s);
 
 /// E_d [J] of an arc just solved.
 double arc_energy(const ModelData& model, const ArcProblem& problem, const Arc& arc, ArcScratch& s);
 
-/// dv/dtau of an arc, constraints left aside: v' = -J^-1 dp_start/dtau with
-/// dp_start/dtau = (L_vq v - L_q)/2 - tau/4 L_qq v. Needs the factors of J in s. Result in `rate`
-/// (n_q).
+/// dv/dtau of an arc, constraints left aside: v' = -J^-1 dp_start/dtau. Needs the factors of J in
+/// s. Result in `rate` (n_v).
 void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate);
 
 /// The same, factors and all, for an arc just solved.
 void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate);
+
+/// The ball that turns farthest in time tau at velocity v, -1 where there is none, and by how much.
+struct FastestTurn {
+  int ball = -1;     ///< index in tree.balls
+  double angle = 0;  ///< [rad]
+};
+FastestTurn fastest_turn(const Tree& tree, const VecX& v, double tau);
 
 }  // namespace saltus

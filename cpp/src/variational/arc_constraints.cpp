@@ -13,12 +13,17 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
   if (c.kind == ArcConstraint::Kind::hold) {
     const Gap g = pair_gap_at_end(model, c.watched(), s);
     add_gap_gradient(model.tree, s.kin_end, c.watched(), g, c.row);
+    pull_back_end(model.packed, s.J, c.row);
     return (g.phi - c.target) / a.tau;
   }
-  // dE_d/dv = L_vv v + tau/2 (L_vq^T v - L_q); w has v as its rates, and L_vv v = L_v
+  // dE_d/dv = L_vv v + tau/2 C^T (L_qv v - L_q); w has v as its rates, and L_vv v = L_v
   multiply_by_rates(model.packed, s.w, s.products);
-  gather(model.tree, model.packed, s.products.by_joint, 1, s.L_qv_v);
-  c.row = s.L_v + a.tau / 2 * (s.L_qv_v - s.L_q);
+  gather(model.tree, model.packed, s.products.by_joint, 1, c.row);
+  gather(model.tree, model.packed, s.w.first, 1, s.x);
+  c.row -= s.x;
+  pull_back_middle(model.packed, s.J, c.row);
+  gather(model.tree, model.packed, s.w.first, 0, s.x);
+  c.row = s.x + a.tau / 2 * c.row;
   if (a.whole > 0) {  // of what c kappa adds, the part without second partials of kappa
     const ShadowTerm& shadow = s.compensation->shadow;
     c.row += a.tau * a.tau / 12 * (shadow.kappa_v + a.tau / 2 * shadow.kappa_q);
@@ -31,8 +36,8 @@ double constraint(const ModelData& model, const ArcProblem& a, const VecX& v, Ar
 void add_constraints(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s) {
   const int m = static_cast<int>(a.constraints.size());
   if (m == 0) return;
-  s.x = a.q + a.tau * v;
-  place_end(model, s.x, s);
+  integrate(model.tree, a.q, a.tau, v, s.q);
+  place_end(model, s.q, s);
   SmallMat S(m, m);
   SmallVec rhs(m);
   for (int i = 0; i < m; ++i) {
@@ -55,8 +60,8 @@ double constraint_residual(const ModelData& model, const ArcProblem& a, const Ve
                            ArcScratch& s) {
   double size = 0;
   if (a.constraints.empty()) return size;
-  s.x = a.q + a.tau * v;
-  place_end(model, s.x, s);
+  integrate(model.tree, a.q, a.tau, v, s.q);
+  place_end(model, s.q, s);
   for (ArcConstraint& c : a.constraints) {
     if (c.kind == ArcConstraint::Kind::hold) {
       const double phi = pair_gap_at_end(model, c.watched(), s).phi;

@@ -9,8 +9,8 @@ namespace {
 /// phi at the end of the arc (q, v, tau); its gradient in `n`.
 double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v, const Pair& pair,
                   ArcScratch& s, VecX& n) {
-  s.x = a.q + a.tau * v;
-  place_end(model, s.x, s);
+  integrate(model.tree, a.q, a.tau, v, s.q);
+  place_end(model, s.q, s);
   const Gap gap = pair_gap_at_end(model, pair, s);
   n.setZero();
   add_gap_gradient(model.tree, s.kin_end, pair, gap, n);
@@ -25,6 +25,7 @@ bool improve(const ModelData& model, const ArcProblem& a, double phi, const Clos
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
   set_arc_rate(model, a.tau, s, gap.rate);
+  pull_back_end(model.packed, s.J, gap.n);
   const double slope = gap.n.dot(arc.v) + a.tau * gap.n.dot(gap.rate);
   const double dtau = -(phi + a.tau * gap.n.dot(s.dv)) / slope;
   const double tau = a.tau + dtau;
@@ -48,7 +49,7 @@ bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
     const double phi = gap_at_end(model, a, arc.v, gap.pair, s, gap.n);
     const bool stalled = std::abs(phi) <= touch / 2 && std::abs(phi) >= phi_before / 2;
     if (is_converged(arc.residual, before) && (std::abs(phi) <= 1e-3 * touch || stalled)) {
-      finish_arc(a, arc, s);
+      finish_arc(model, a, arc, s);
       return true;
     }
     if (arc.iterations == most_iterations || !improve(model, a, phi, gap, arc, s)) return false;

@@ -2,12 +2,14 @@
 //
 // Paper, (11a), (11b); theory, section 4. Unknowns v and tau, equations
 //
-//   F = p_start(q, v, tau) - p = 0      g = phi(q + tau v) = 0
+//   F = p_start(q, v, tau) - p = 0      g = phi(q (+) tau v) = 0
 //
 // The Schur complement of J = dF/dv leaves one number:
 //
 //   dv_0 = -J^-1 F,  v' = -J^-1 dF/dtau
 //   dtau = -(g + tau n.dv_0) / (n.(v + tau v')),  dv = dv_0 + dtau v'
+//
+// n is K^T phi_q, the derivative by v over tau: balls turn the end (K: packed_matrix.hpp).
 #pragma once
 
 #include "variational/arc.hpp"
@@ -18,7 +20,7 @@ namespace saltus {
 struct ClosingGap {
   const Pair& pair;
   double longest;  ///< [s] the arc may not be longer
-  VecX& n;         ///< (n_q) scratch: phi_q there
+  VecX& n;         ///< (n_v) scratch: K^T phi_q there
   VecX& rate;      ///< (n_q) written: v'
 };
 

@@ -24,7 +24,7 @@ TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.pack
     const PackedGroup& g = t.groups[t.trees[i].group];
     for (int k = 0; k < g.positions; ++k) of[i].push_back(t.joint[g.slot(k) + t.trees[i].lane]);
   }
-  for (int c = 0; c < model.tree.coordinates && !one_to_one; ++c) of[0].push_back(c);
+  for (int c = 0; c < model.tree.n_v && !one_to_one; ++c) of[0].push_back(c);
   for (const auto& each : of) most = std::max(most, static_cast<int>(each.size()));
 }
 

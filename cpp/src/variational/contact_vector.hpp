@@ -37,7 +37,7 @@ bool share_a_tree(const ContactVector& x, const ContactVector& y);
 void shape_row(const ModelData& model, const TreeCoordinates& trees, const Pair& pair,
                ContactVector& row);
 
-/// Takes the row's entries out of `dense` (n_q), and leaves zeros there.
+/// Takes the row's entries out of `dense` (n_v), and leaves zeros there.
 void take_from(const TreeCoordinates& trees, VecX& dense, ContactVector& row);
 
 double dot(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);

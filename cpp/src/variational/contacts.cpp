@@ -107,6 +107,12 @@ bool set_velocity_at_node(const ModelData& model, Node& node) {
   return node.v.allFinite();
 }
 
+bool start_from_momenta(const ModelData& model, Node& node) {
+  set_coordinates(model.tree, model.packed, node.q, node.w);
+  place(model.packed, node.w);
+  return set_velocity_at_node(model, node);
+}
+
 Contact fresh_contact(const TreeCoordinates& trees, bool with_friction) {
   Contact fresh;
   const auto most = 2 * static_cast<std::size_t>(trees.most);

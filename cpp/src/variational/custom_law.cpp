@@ -17,11 +17,11 @@ ImpactProblem problem_of(const ModelData& model, const Node& node) {
   out.p = node.p;
   out.v = node.v;
   out.M = mass_matrix(model.tree, model.packed, node.q);
-  out.N.resize(m, model.tree.coordinates);
+  out.N.resize(m, model.tree.n_v);
   out.u.resize(m);
   out.restitution.resize(m);
   out.friction.resize(m);
-  VecX row(model.tree.coordinates);
+  VecX row(model.tree.n_v);
   for (int i = 0; i < m; ++i) {
     const Contact& c = node.contacts[i];
     row.setZero();

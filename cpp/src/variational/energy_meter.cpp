@@ -7,7 +7,7 @@ EnergyMeter::EnergyMeter(const ModelData& model)
       w(model.packed),
       M(model.tree, model.packed),
       free(model.tree, model.packed) {
-  v.setZero(model.tree.coordinates);
+  v.setZero(model.tree.n_v);
 }
 
 bool measure(const ModelData& model, const VecX& q, const VecX& p, double h, EnergyMeter& m) {

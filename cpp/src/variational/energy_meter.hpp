@@ -11,7 +11,7 @@ namespace saltus {
 struct EnergyMeter {
   explicit EnergyMeter(const ModelData& model);
 
-  VecX v;           ///< (n_q) written by measure
+  VecX v;           ///< (n_v) written by measure
   Energies energy;  ///< written by measure
 
   Packed w;

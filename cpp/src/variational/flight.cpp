@@ -66,10 +66,23 @@ bool is_hop(const Node& node, int pair) {
   return contact >= 0 && dot(node.trees, node.contacts[contact].n, node.dq) <= 0;
 }
 
+/// M^-1 p at the node as the guess. @return false where the mass matrix is singular
+bool guess_from_momenta(const ModelData& model, Node& node, Flight& f) {
+  if (!start_from_momenta(model, node)) return false;
+  f.arc.v = node.v;
+  return true;
+}
+
 /// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
-/// from the velocity at the node.
+/// from the velocity at the node, last from M^-1 p there.
 bool solve_first_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
                      Flight& f) {
+  // From where bodies turn by a radian an arc, its velocity is no smooth function of those before
+  if (fastest_turn(model.tree, node.v, left).angle > 1 && !needs_friction_arc(node)) {
+    if (guess_from_momenta(model, node, f) && solve_flight_arc(model, options, left, node, f)) {
+      return true;
+    }
+  }
   if (f.history.extrapolate(node.t + left / 2, f.arc.v)) {
     if (solve_flight_arc(model, options, left, node, f)) return true;
     forget_impulses(f);
@@ -81,7 +94,9 @@ bool solve_first_arc(const ModelData& model, const StepOptions& options, double 
     forget_impulses(f);
     f.arc.v = node.v;
   }
-  return solve_flight_arc(model, options, left, node, f);
+  if (solve_flight_arc(model, options, left, node, f)) return true;
+  return !needs_friction_arc(node) && guess_from_momenta(model, node, f) &&
+         solve_flight_arc(model, options, left, node, f);
 }
 
 /// An arc of no duration, where something at the node has to be resolved first.
@@ -190,16 +205,17 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
 }  // namespace
 
 Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
-    : history(model.tree.coordinates),
+    : history(model.tree.n_v),
       scratch(model, options.law),
       broad(model.tree, model.shapes, model.pairs),
       constraints(most_constraints + 1),
       slip(with_friction) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
-  const int n_q = model.tree.coordinates;
-  for (VecX* x : {&arc.v, &arc.q_end, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_q);
-  for (VecX* x : {&slip.p, &slip.size}) x->setZero(with_friction ? n_q : 0);
+  const int n_v = model.tree.n_v;
+  for (VecX* x : {&arc.q_start, &arc.q_end}) x->setZero(model.tree.n_q);
+  for (VecX* x : {&arc.v, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_v);
+  for (VecX* x : {&slip.p, &slip.size}) x->setZero(with_friction ? n_v : 0);
   for (ArcConstraint& c : constraints) c = fresh_constraint(model);
 }
 

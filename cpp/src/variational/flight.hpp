@@ -3,7 +3,7 @@
 // Paper, section III-B, III-C; theory, section 4. The arc over the whole remaining time is tried;
 // if a gap closes on its chord, the time of the impact is the root of
 //
-//   g(tau) = phi(q + tau v(tau)) = 0,   g' = n.(v + tau v'),   v' = -J^-1 dp_start/dtau
+//   g(tau) = phi(q (+) tau v(tau)) = 0,   g' = n.(v + tau v'),   v' = -J^-1 dp_start/dtau
 //
 // with v(tau) from the arc equation itself, by safeguarded Newton. The shortened arc is tried
 // again, until its chord is clear: no impact inside a step is missed, and none is taken too late.
@@ -22,7 +22,7 @@ namespace saltus {
 
 /// Rows T of a hold in the middle of the arc, and J^-1 of those at its start.
 struct SlipRows {
-  VecX t0, t1, column0, column1;  ///< (n_q)
+  VecX t0, t1, column0, column1;  ///< (n_v)
 };
 
 /// Scratch of friction_arc.cpp; empty without friction.
@@ -33,8 +33,8 @@ struct SlipScratch {
   std::vector<Vec3> before;   ///< impulses
   double tau = 0;             ///< [s] the arc that the impulses of the holds are over
   double residual = 0;        ///< of Coulomb's law, in the arc just solved
-  VecX p;                     ///< (n_q) the node's with all impulses, written by set_slip_rates
-  VecX size;                  ///< (n_q) of all that is summed up in it, likewise
+  VecX p;                     ///< (n_v) the node's with all impulses, written by set_slip_rates
+  VecX size;                  ///< (n_v) of all that is summed up in it, likewise
 };
 
 struct Flight {

@@ -120,7 +120,7 @@ bool solve_rounds(const ModelData& model, const StepOptions& options, double tau
     settle_for_sure(x.W, x.pile, x.u, x.p, 1e-4);  // what it leaves, the next round finds
     add_change(f.slip.before, f);
   }
-  finish_arc({node.q, f.slip.p, f.arc.tau, {}, whole_step(options)}, f.arc, f.scratch);
+  finish_arc(model, {node.q, f.slip.p, f.arc.tau, {}, whole_step(options)}, f.arc, f.scratch);
   give_to_holds(node, f);
   return true;
 }
@@ -145,7 +145,7 @@ void make_room(const ModelData& model, Node& node, Flight& f) {
   while (f.slip.row.size() < f.slip.friction.contact.capacity()) {
     SlipRows row;
     for (VecX* x : {&row.t0, &row.t1, &row.column0, &row.column1}) {
-      x->setZero(model.tree.coordinates);
+      x->setZero(model.tree.n_v);
     }
     f.slip.row.push_back(std::move(row));
   }

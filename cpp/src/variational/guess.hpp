@@ -13,8 +13,8 @@ namespace saltus {
 
 class GuessHistory {
  public:
-  explicit GuessHistory(int n_q) {
-    for (VecX& v : v_) v.setZero(n_q);
+  explicit GuessHistory(int n_v) {
+    for (VecX& v : v_) v.setZero(n_v);
   }
   void clear() { count_ = 0; }
 
@@ -25,7 +25,7 @@ class GuessHistory {
     if (count_ < most) ++count_;
   }
 
-  /// Writes `v` (n_q); leaves it alone and returns false without history.
+  /// Writes `v` (n_v); leaves it alone and returns false without history.
   bool extrapolate(double t_mid, VecX& v) const {
     std::array<double, most> weight;
     for (int count = count_; count > 0; --count) {

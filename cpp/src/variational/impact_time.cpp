@@ -28,6 +28,7 @@ GapAtEnd gap_at_end(const ModelData& model, const Pair& pair, Flight& f) {
   f.n.setZero();
   add_gap_gradient(model.tree, f.scratch.kin_end, pair, g, f.n);
   arc_rate(model, f.arc, f.scratch, f.rate);
+  pull_back_end(model.packed, f.scratch.J, f.n);
   f.has_rate = true;
   return {g.phi, f.n.dot(f.arc.v) + f.arc.tau * f.n.dot(f.rate)};
 }

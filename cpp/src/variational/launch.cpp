@@ -75,7 +75,7 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
 ArcConstraint fresh_constraint(const ModelData& model) {
   ArcConstraint c;
   c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
-  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.coordinates);
+  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.n_v);
   return c;
 }
 

@@ -84,8 +84,8 @@ Node::Node(const ModelData& model)
       M(model.tree, model.packed),
       broad(model.tree, model.shapes, model.pairs),
       trees(model) {
-  const int n = model.tree.coordinates;
-  for (VecX* x : {&q, &p, &v, &dq, &dense, &column, &launch.n}) x->setZero(n);
+  q.setZero(model.tree.n_q);
+  for (VecX* x : {&p, &v, &dq, &dense, &column, &launch.n}) x->setZero(model.tree.n_v);
   for (const BodyInertia& body : model.mass.body) total_mass += body.mass;
   for (const PlacedShape& shape : model.shapes) {
     const double touch = relative_touch * feature_size(shape.shape);

@@ -42,7 +42,7 @@ struct Launch {
   bool pending = false;
   double energy = 0;         ///< [J] what the law conserves, less what restitution took
   double normal_energy = 0;  ///< [J] u^2 / 2G of the last strong impulse
-  VecX n;                    ///< (n_q)
+  VecX n;                    ///< (n_v)
 };
 
 struct Node {
@@ -67,7 +67,7 @@ struct Node {
   BroadPhase broad;
   TreeCoordinates trees;
   VecX dq, u, rest, restitution, column;
-  VecX dense;  ///< (n_q) zero between uses
+  VecX dense;  ///< (n_v) zero between uses
   ContactMatrix G;
   CascadeScratch cascade;
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
@@ -95,6 +95,9 @@ void drop_last_contact(Node& node);
 
 /// M and v = M^-1 p at the node. @return false where the mass matrix is singular
 bool set_velocity_at_node(const ModelData& model, Node& node);
+
+/// v = M^-1 p where nothing else of the node is known but q and p. @return as above
+bool start_from_momenta(const ModelData& model, Node& node);
 
 /// Writes u, epsilon_u and motion from n and the node's v. Needs typical_speed.
 void classify(const Node& node, double speed, double relative, Contact& c);

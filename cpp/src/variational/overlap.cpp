@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "saltus/collision/broad_phase.hpp"
+#include "saltus/tree/coordinates.hpp"
 #include "variational/contact_qp.hpp"
 
 namespace saltus {
@@ -22,7 +23,7 @@ struct Overlap {
 /// The pairs nearer than `margin`, and their gradients.
 struct NearPairs {
   std::vector<Overlap> pairs;
-  MatX phi_q;  ///< (pairs, n_q)
+  MatX phi_q;  ///< (pairs, n_v)
   VecX phi;
 
   double depth() const {
@@ -35,21 +36,21 @@ struct NearPairs {
 NearPairs near_pairs(const Model& model, const VecX& q, double margin, BroadPhase& broad) {
   Kinematics kin(model->tree);
   set_configuration(model->tree, q, kin);
-  find_candidates(model->tree, model->shapes, model->pairs, kin, VecX::Zero(q.size()), margin,
-                  broad);
+  const int n_v = model.n_v();
+  find_candidates(model->tree, model->shapes, model->pairs, kin, VecX::Zero(n_v), margin, broad);
   NearPairs out;
   std::vector<VecX> rows;
   for (const int number : broad.candidates) {
     const Pair pair = model.pair(number);
     const Gap gap = pair_gap(model->tree, kin, pair);
     if (gap.phi > margin || is_silent(model->tree, kin, pair, gap)) continue;
-    VecX row = VecX::Zero(q.size());
+    VecX row = VecX::Zero(n_v);
     add_gap_gradient(model->tree, kin, pair, gap, row);
     if (row.isZero(0)) continue;  // nothing that moves can change it
     out.pairs.push_back({number, gap.phi, pair.touch});
     rows.push_back(row);
   }
-  out.phi_q.resize(static_cast<Eigen::Index>(rows.size()), q.size());
+  out.phi_q.resize(static_cast<Eigen::Index>(rows.size()), n_v);
   out.phi.resize(out.phi_q.rows());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out.phi_q.row(static_cast<Eigen::Index>(i)) = rows[i];
@@ -79,8 +80,7 @@ bool is_resolved(const NearPairs& near) {
 }  // namespace
 
 VecX resolve_overlap(const Model& model, const VecRef& start) {
-  check_vector(start, model.n_q(), "q");
-  VecX q = start;
+  VecX q = model.checked_q(start, "q");
   BroadPhase broad(model->tree, model->shapes, model->pairs);
   NearPairs near = near_pairs(model, q, 0, broad);
   for (int k = 0; k < most_steps && !is_resolved(near); ++k) {
@@ -91,7 +91,7 @@ VecX resolve_overlap(const Model& model, const VecRef& start) {
     MatX G = near.phi_q * columns;
     // where there is no way out the multipliers stay finite
     G.diagonal() *= 1 + 1e-9;
-    q += columns * contact_multipliers(G, near.phi);
+    integrate(model->tree, q, 1, columns * contact_multipliers(G, near.phi), q);
     near = near_pairs(model, q, 0, broad);
   }
   if (!is_resolved(near)) fail(model, near);

@@ -28,8 +28,8 @@ void add_slide_rows(const ModelData& model, const ArcConstraint& c, ArcScratch& 
 void set_rates(const ModelData& model, const Node& node, Flight& f) {
   FrictionScratch& x = f.slip.friction;
   ArcScratch& s = f.scratch;
-  s.x = node.q + f.arc.tau * f.arc.v;
-  place_end(model, s.x, s);
+  integrate(model.tree, node.q, f.arc.tau, f.arc.v, s.q);
+  place_end(model, s.q, s);
   x.u.resize(x.contact.size());
   for (std::size_t i = 0; i < x.contact.size(); ++i) {
     ArcConstraint& c = f.constraints[x.contact[i]];
@@ -121,6 +121,7 @@ bool set_slip_blocks(const ModelData& model, const Node& node, Flight& f) {
   solve(model.tree, model.packed, s.J, s.dv);
   f.arc.v += s.dv;
   set_rates(model, node, f);
+  for (const int i : x.contact) pull_back_end(model.packed, s.J, f.constraints[i].row);
   ContactBlocks& W = x.W;
   clear_blocks(W);
   const int m = static_cast<int>(x.contact.size());

@@ -1,6 +1,7 @@
 // What a step that fails says.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "variational/stepper_impl.hpp"
@@ -14,18 +15,17 @@ std::string Stepper::Impl::contact_list() const {
   return list_names(names);
 }
 
-/// The joint that is nearest to where its yaw and roll are one, if any is within half a radian.
-std::string Stepper::Impl::singular_joint() const {
+/// The ball joint that turns farthest in an arc, if it is half a turn or more.
+std::string Stepper::Impl::fast_joint() const {
+  const FastestTurn fastest = fastest_turn(model->tree, node.v, flight.arc.tau);
+  if (!(fastest.angle > std::numbers::pi)) return {};
+  const int velocity = model->tree.balls[fastest.ball].velocity;
   std::ostringstream text;
-  double least = 0.5;
   for (const JointInfo& joint : model->joints) {
-    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
-    const double pitch = node.q[joint.coordinates[joint.coordinates.size() - 2]];
-    if (!(std::abs(std::cos(pitch)) < least)) continue;
-    least = std::abs(std::cos(pitch));
-    text.str("");
-    text << "; joint \"" << joint.name << "\" is at pitch = " << pitch
-         << " rad, and singular at +-90 deg";
+    const auto& own = joint.velocities;
+    if (std::find(own.begin(), own.end(), velocity) == own.end()) continue;
+    text << "; joint \"" << joint.name << "\" turns by " << fastest.angle << " rad in one arc of "
+         << flight.arc.tau << " s, and can by less than 2 pi";
   }
   return text.str();
 }
@@ -47,7 +47,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
            << " s: " << model.pair_name(node.pool.number(flight.closing))
            << " neither sticks nor slides, it is off Coulomb's law by "
            << std::max(flight.slip.residual, node.friction.residual)
-           << " of the largest impulse; a smaller h helps where it turns fast" << singular_joint();
+           << " of the largest impulse; a smaller h helps where it turns fast" << fast_joint();
       break;
     case FlightOutcome::no_progress:
       text << "contacts at t = " << node.t
@@ -57,7 +57,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) const {
       text << "DEL residual " << arc.residual << " after " << arc.iterations
            << " iterations at t = " << node.t << " s, arc of " << arc.tau
            << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
-      text << singular_joint();
+      text << fast_joint();
   }
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }

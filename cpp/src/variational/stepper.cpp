@@ -17,10 +17,22 @@ namespace {
 /// would take the rounding of gaps out within no time.
 constexpr double no_duration = 1e-12;
 
+/// The gradient of kappa is there for one-degree joints alone.
+void check_law(const ModelData& model, ImpactLaw law) {
+  if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
+  for (const JointInfo& joint : model.joints) {
+    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+    throw ModelError("law compensated is not for floating and spherical joints, as \"" + joint.name +
+                         "\" is; shadow_energy and discrete_energy are",
+                     "joint", joint.name);
+  }
+}
+
 }  // namespace
 
 Stepper::Stepper(const Model& model, const StepOptions& options) {
   check_options(options);
+  check_law(*model, options.law);
   impl_ = std::make_unique<Impl>(model, options);
 }
 Stepper::~Stepper() = default;
@@ -67,11 +79,12 @@ void Stepper::Impl::step(State& state) {
 }
 
 void Stepper::Impl::start(const State& state) {
-  check_vector(state.q, model.n_q(), "state.q");
-  check_vector(state.p, model.n_q(), "state.p");
+  const VecX q = model.checked_q(state.q, "state.q");
+  check_vector(state.p, model.n_v(), "state.p", "velocities");
   if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
   last_is_valid = false;
   last = state;
+  last.q = q;
   flight.history.clear();
   flight.has_rate = false;
   node.launch.pending = false;
@@ -81,10 +94,11 @@ void Stepper::Impl::start(const State& state) {
   std::fill(node.held.begin(), node.held.end(), 0);
   ++node.friction.flight;  // what friction did before is no guess
   node.t = state.t;
-  node.q = state.q;
+  node.q = q;
   node.p = state.p;
-  node.v.setZero();
-  if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
+  if (!start_from_momenta(*model, node) || !find_contacts(*model, options, node)) {
+    fail(FlightOutcome::not_converged);
+  }
   check_overlap();
   if (impact_pending(node)) arrive(state.t);
 }
@@ -164,8 +178,7 @@ double Stepper::Impl::conserved_energy() {
     flight.arc.v = node.v;
     if (!solve_flight_arc(*model, options, 0, node, flight)) fail(FlightOutcome::not_converged);
   }
-  flight.n = node.q - flight.arc.tau * flight.arc.v;  // where the arc started
-  const ArcProblem problem{flight.n, node.p, flight.arc.tau, {}, whole_step(options)};
+  const ArcProblem problem{flight.arc.q_start, node.p, flight.arc.tau, {}, whole_step(options)};
   return arc_energy(*model, problem, flight.arc, flight.scratch);
 }
 

@@ -15,7 +15,7 @@ struct Stepper::Impl {
         node(*model),
         flight(*model, options, node.friction.any) {
     last.q.setZero(model.n_q());
-    last.p.setZero(model.n_q());
+    last.p.setZero(model.n_v());
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
     if (node.friction.any) report.friction.reserve(1024);
@@ -34,7 +34,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
   std::string contact_list() const;
-  std::string singular_joint() const;
+  std::string fast_joint() const;
 
   Model model;
   StepOptions options;

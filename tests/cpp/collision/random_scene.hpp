@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/collision/pair_table.hpp"
+#include "saltus/tree/coordinates.hpp"
 
 namespace saltus::testing_scene {
 
@@ -69,17 +70,49 @@ struct TreeOptions {
   double offset = 0.4;     ///< [m] greatest component of a placement
   double branching = 0.3;  ///< chance that a joint hangs on any earlier frame, not on the last
   double mimic = 0.2;      ///< chance that a joint is driven by an earlier coordinate
+  double ball = 0;         ///< chance that a joint is a ball, which counts as one
 };
+
+/// The joint that carries what hangs on joint i: of a ball the third.
+inline int carrier(const Tree& tree, int i) {
+  return i >= 0 && tree.joint[i].is_ball() ? i + 2 - tree.joint[i].axis : i;
+}
+
+inline VecX random_coordinates(const Tree& tree, double scale, Random& random) {
+  VecX q = random.numbers(tree.n_q, scale);
+  for (const Ball& ball : tree.balls) {
+    q.segment<4>(ball.coordinate) = Quaternion(random.rotation()).normalized().coeffs();
+  }
+  return q;
+}
+
+/// q (+) s dq.
+inline VecX moved(const Tree& tree, const VecX& q, double s, const VecX& dq) {
+  VecX out(tree.n_q);
+  integrate(tree, q, s, dq, out);
+  return out;
+}
 
 inline Tree random_tree(const TreeOptions& options, Random& random) {
   Tree tree;
-  for (int i = 0; i < options.joints; ++i) {
-    const int parent = random.chance(options.branching) ? random.index(i + 1) - 1 : i - 1;
+  std::vector<int> shared;  // velocities that mimic joints may have
+  for (int n = 0; n < options.joints; ++n) {
+    const int i = tree.joints();
+    const int parent =
+        carrier(tree, random.chance(options.branching) ? random.index(i + 1) - 1 : i - 1);
+    if (options.ball > 0 && random.chance(options.ball)) {
+      add_ball(tree, parent, random.pose(options.offset));
+      continue;
+    }
     Joint joint{static_cast<Joint::Kind>(random.index(3)), 0};
     if (joint.kind == Joint::Kind::helical) joint.pitch = random.uniform(-0.3, 0.3);
-    Drive drive{tree.coordinates, 1, 0};
-    if (i > 0 && random.chance(options.mimic)) {
-      drive = {random.index(tree.coordinates), random.uniform(-2, 2), random.uniform(-1, 1)};
+    Drive drive{tree.n_v, 1, 0};
+    if (!shared.empty() && random.chance(options.mimic)) {
+      const int other = random.index(static_cast<int>(shared.size()));
+      drive = {shared[static_cast<std::size_t>(other)], random.uniform(-2, 2),
+               random.uniform(-1, 1)};
+    } else {
+      shared.push_back(drive.velocity);
     }
     add_joint(tree, parent, joint, random.pose(options.offset), drive);
   }
@@ -140,15 +173,17 @@ inline Scene random_scene(const std::string& kind_a, const std::string& kind_b,
                           const TreeOptions& options, Random& random) {
   Scene scene;
   scene.tree = random_tree(options, random);
-  const int joint_a = random.index(options.joints);
-  int joint_b = kind_b == "half_space" ? -1 : random.index(options.joints + 1) - 1;
+  const int joints = scene.tree.joints();
+  const int joint_a = carrier(scene.tree, random.index(joints));
+  int joint_b = kind_b == "half_space" ? -1 : random.index(joints + 1) - 1;
+  joint_b = carrier(scene.tree, joint_b);
   if (joint_b == joint_a) joint_b = -1;
   const Shape a =
       kind_a == "sphere" ? Sphere{random.uniform(0.05, 0.2)} : random_shape(kind_a, random);
   scene.shapes = {place(a, joint_a, random.pose(options.offset)),
                   place(random_shape(kind_b, random), joint_b, random.pose(options.offset))};
   scene.pair = make_pair_of(scene.tree, scene.shapes, 0, 1);
-  scene.q = random.numbers(scene.tree.coordinates, 1.5);
+  scene.q = random_coordinates(scene.tree, 1.5, random);
   return scene;
 }
 

@@ -13,8 +13,11 @@
 namespace saltus {
 namespace {
 
+using testing_scene::carrier;
+using testing_scene::moved;
 using testing_scene::place;
 using testing_scene::Random;
+using testing_scene::random_coordinates;
 using testing_scene::random_shape;
 using testing_scene::random_tree;
 
@@ -43,7 +46,7 @@ struct World {
     std::vector<double> least(pairs.size(), 1e300);
     Kinematics kin(tree);
     for (int k = 0; k <= 8; ++k) {
-      set_configuration(tree, q + k / 8.0 * dq, kin);
+      set_configuration(tree, moved(tree, q, k / 8.0, dq), kin);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Gap g = pair_gap(tree, kin, pairs[i]);
         if (!is_silent(tree, kin, pairs[i], g)) least[i] = std::min(least[i], g.phi);
@@ -57,12 +60,14 @@ World random_world(Random& random) {
   World world;
   const int joints = 1 + random.index(30);
   // branching with the world among the choices: several trees
-  world.tree = random_tree({.joints = joints, .offset = 1, .branching = 0.5}, random);
+  world.tree = random_tree(
+      {.joints = joints, .offset = 1, .branching = 0.5, .ball = random.chance(0.5) ? 0.4 : 0},
+      random);
   const std::vector<std::string> kinds = {"sphere",  "sphere", "sphere",
                                           "capsule", "box",    "cylinder"};
   for (int k = 0; k < 20; ++k) {
     const Shape shape = random_shape(kinds[random.index(6)], random);
-    world.shapes.push_back(place(shape, random.index(joints + 1) - 1, random.pose(1)));
+    world.shapes.push_back(place(shape, carrier(world.tree, random.index(joints + 1) - 1), random.pose(1)));
   }
   for (int k = random.index(3); k > 0; --k) {
     world.shapes.insert(world.shapes.begin() + random.index(20),
@@ -78,10 +83,10 @@ TEST(BroadPhase, DropsNoPairThatCanTouch) {
   for (int w = 0; w < 60; ++w) {
     const World world = random_world(random);
     BroadPhase bp = world.broad_phase();
-    VecX q = random.numbers(world.tree.coordinates, 3);
+    VecX q = random_coordinates(world.tree, 3, random);
     for (int step = 0; step < 4; ++step) {  // small steps and a leap
       const bool leap = step == 2;
-      const VecX dq = random.numbers(world.tree.coordinates, leap ? 2 : 0.05);
+      const VecX dq = random.numbers(world.tree.n_v, leap ? 2 : 0.05);
       const double margin = step % 2 == 0 ? 0 : 0.1;
       const std::vector<int>& found = world.find(q, dq, margin, bp);
       const std::vector<double> least = world.least_gaps(q, dq);
@@ -94,7 +99,7 @@ TEST(BroadPhase, DropsNoPairThatCanTouch) {
         ++all;
         dropped += !kept;
       }
-      q += dq;
+      q = moved(world.tree, q, 1, dq);
     }
   }
   EXPECT_GT(dropped, all / 2);  // and it is of use
@@ -108,8 +113,8 @@ TEST(BroadPhase, KeepsEveryHitOfAChord) {
   for (int w = 0; w < 100; ++w) {
     const World world = random_world(random);
     BroadPhase bp = world.broad_phase();
-    const VecX q = random.numbers(world.tree.coordinates, 3);
-    const VecX dq = random.numbers(world.tree.coordinates, 0.5);
+    const VecX q = random_coordinates(world.tree, 3, random);
+    const VecX dq = random.numbers(world.tree.n_v, 0.5);
     const std::vector<int>& found = world.find(q, dq, 0, bp);
     for (int i = 0; i < static_cast<int>(world.pairs.size()); ++i) {
       const ChordHit hit = first_hit_on_chord(world.tree, world.pairs[i], q, dq, 0);
@@ -234,18 +239,18 @@ TEST(BroadPhase, FindsTheSameWhateverCameBefore) {
   Random random(33);
   for (int w = 0; w < 20; ++w) {
     const World world = random_world(random);
-    const int n = world.tree.coordinates;
+    const int n = world.tree.n_v;
     BroadPhase bp = world.broad_phase();
-    VecX q = random.numbers(n, 3);
+    VecX q = random_coordinates(world.tree, 3, random);
     for (int leap = 0; leap < 4; ++leap) {
       const VecX dq = random.numbers(n, 0.003);
       for (int k = 0; k < 12; ++k) {  // a drift, wider and narrower sweeps and margins
         const double margin = k % 5 == 0 ? 0.1 : 0, wide = k % 4 == 0 ? 3 : 1;
         BroadPhase fresh = world.broad_phase();
         EXPECT_EQ(world.find(q, wide * dq, margin, bp), world.find(q, wide * dq, margin, fresh));
-        q += dq;
+        q = moved(world.tree, q, 1, dq);
       }
-      q += random.numbers(n, 1);
+      q = moved(world.tree, q, 1, random.numbers(n, 1));
     }
   }
 }

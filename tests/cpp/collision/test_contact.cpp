@@ -9,6 +9,7 @@ namespace saltus {
 namespace {
 
 using testing_scene::make_pair_of;
+using testing_scene::moved;
 using testing_scene::place;
 using testing_scene::Random;
 using testing_scene::random_scene;
@@ -24,8 +25,8 @@ struct Derivatives {
 Derivatives derivatives(const Scene& scene, const VecX& q) {
   Kinematics kin(scene.tree);
   set_configuration(scene.tree, q, kin);
-  Derivatives d{pair_gap(scene.tree, kin, scene.pair), VecX::Zero(q.size()),
-                MatX::Zero(q.size(), q.size())};
+  const int n_v = scene.tree.n_v;
+  Derivatives d{pair_gap(scene.tree, kin, scene.pair), VecX::Zero(n_v), MatX::Zero(n_v, n_v)};
   add_gap_gradient(scene.tree, kin, scene.pair, d.gap, d.phi_q);
   add_gap_hessian(scene.tree, kin, scene.pair, d.gap, d.phi_qq);
   return d;
@@ -93,20 +94,27 @@ TEST_P(ContactPartials, AgreeWithCentralDifferences) {
   const double h = 1e-5;
   int used = 0;
   for (int k = 0; k < 300; ++k) {
-    const TreeOptions options{.joints = 1 + random.index(7), .branching = k % 3 ? 0.3 : 1};
+    const TreeOptions options{
+        .joints = 1 + random.index(7), .branching = k % 3 ? 0.3 : 1, .ball = k % 2 ? 0.4 : 0};
     const Scene scene = random_scene(GetParam(), options, random);
     const Derivatives d = derivatives(scene, scene.q);
-    VecX phi_q(scene.q.size());
-    MatX phi_qq(scene.q.size(), scene.q.size());
+    const int n_v = scene.tree.n_v;
+    VecX phi_q(n_v);
+    MatX phi_qq(n_v, n_v);
     double change = 0;  // of F over the stencil: large where it straddles two features
-    for (int i = 0; i < scene.q.size(); ++i) {
-      VecX q_up = scene.q, q_down = scene.q;
-      q_up[i] += h;
-      q_down[i] -= h;
-      const Derivatives up = derivatives(scene, q_up), down = derivatives(scene, q_down);
+    for (int i = 0; i < n_v; ++i) {
+      const VecX e = VecX::Unit(n_v, i);
+      const Derivatives up = derivatives(scene, moved(scene.tree, scene.q, h, e));
+      const Derivatives down = derivatives(scene, moved(scene.tree, scene.q, -h, e));
       phi_q[i] = (up.gap.phi - down.gap.phi) / (2 * h);
       phi_qq.col(i) = (up.phi_q - down.phi_q) / (2 * h);
       change = std::max(change, (F_W(up.gap) - F_W(down.gap)).norm());
+    }
+    // the slope of the gradient along a ball's axis turns the gradient too: the mean of both orders
+    // is the Hessian along turns at constant rates
+    for (const Ball& ball : scene.tree.balls) {
+      auto block = phi_qq.block<3, 3>(ball.velocity, ball.velocity);
+      block = (0.5 * (block + block.transpose())).eval();
     }
     const double curvature = F_W(d.gap).norm();
     if (curvature > 20 || change > 0.01) continue;

@@ -37,7 +37,7 @@ TEST(Allocation, NoneInAStep) {
   const std::vector<Pair> pairs = testing_scene::pairs_of(tree, shapes, table);
   Kinematics kin(tree);
   BroadPhase bp(tree, shapes, table);
-  const VecX q = random.numbers(tree.coordinates, 1), dq = random.numbers(tree.coordinates, 1);
+  const VecX q = random.numbers(tree.n_v, 1), dq = random.numbers(tree.n_v, 1);
   VecX phi_q = VecX::Zero(q.size());
   MatX phi_qq = MatX::Zero(q.size(), q.size());
 

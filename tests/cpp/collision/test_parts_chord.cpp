@@ -64,8 +64,8 @@ TEST_P(PartsOnChords, NoTouchIsMissed) {
     x.shapes = {place(testing_scene::part_shape(GetParam().first, random), a, random.pose(0.6)),
                 place(testing_scene::part_shape(GetParam().second, random), b == a ? -1 : b,
                       random.pose(0.6))};
-    x.q = random.numbers(x.tree.coordinates, 1.5);
-    x.dq = random.numbers(x.tree.coordinates, random.chance(0.2) ? 0.1 : 4);
+    x.q = random.numbers(x.tree.n_v, 1.5);
+    x.dq = random.numbers(x.tree.n_v, random.chance(0.2) ? 0.1 : 4);
     if (x.distance(0) <= 0) continue;
     const double root = first_root([&](double s) { return x.distance(s); });
     double first = 2;

@@ -20,8 +20,8 @@ inline RandomTree copies_of(const RandomTree& t, int copies, Random& random) {
       out.mass.body.push_back(random.body());
     }
   }
-  out.q = random.vector(out.tree.coordinates, 1.5);
-  out.v = random.vector(out.tree.coordinates, 2);
+  out.q = random.vector(out.tree.n_v, 1.5);
+  out.v = random.vector(out.tree.n_v, 2);
   return out;
 }
 

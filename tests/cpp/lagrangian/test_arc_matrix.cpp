@@ -34,7 +34,7 @@ TEST(ArcMatrix, DenseIsTheSumOfPartials) {
     const test::Evaluation at = evaluate(t);
     const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
     for (const double tau : times) {
-      const int n = t.tree.coordinates;
+      const int n = t.tree.n_v;
       MatX J = MatX::Ones(n, n);  // add_dense adds
       add_dense(t.tree, at.kin, at.comp, tau, J);
       // rounding of sums of products of two 6-vectors
@@ -57,7 +57,7 @@ TEST(ArcMatrix, SolveAgreesWithDenseLU) {
       const Eigen::FullPivLU<MatX> lu(dense);
       const double condition = 1 / lu.rcond();
       if (condition > 1e4) continue;
-      const VecX r = random.vector(t.tree.coordinates);
+      const VecX r = random.vector(t.tree.n_v);
       VecX x = r;
       ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, tau, J));
       solve(t.tree, J, x);
@@ -73,7 +73,7 @@ TEST(ArcMatrix, SolveLeavesNoResidual) {
     const test::Evaluation at = evaluate(t);
     const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
     ArcMatrix J(t.tree);
-    const VecX r = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates);
+    const VecX r = Random(static_cast<std::uint64_t>(k)).vector(t.tree.n_v);
     for (const double tau : {0.0, 0.01}) {
       const MatX dense = arc_matrix(L, tau);
       VecX x = r;
@@ -89,7 +89,7 @@ TEST(ArcMatrix, CanBeUsedAgain) {
   for (int k = 0; k < 30; ++k) {
     const RandomTree t = varied_tree(k);
     const test::Evaluation at = evaluate(t);
-    const VecX r = Random(1).vector(t.tree.coordinates);
+    const VecX r = Random(1).vector(t.tree.n_v);
     ArcMatrix used(t.tree);
     RandomTree bad = t;
     bad.q.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -120,7 +120,7 @@ TEST(ArcMatrix, MassPassIsEnoughForTheMassMatrix) {
     }
     ArcMatrix M(t.tree);
     ASSERT_TRUE(factorize(t.tree, mass_only.kin, mass_only.comp, 0, M));
-    const VecX r = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates);
+    const VecX r = Random(static_cast<std::uint64_t>(k)).vector(t.tree.n_v);
     const MatX dense = mass_matrix(t.tree, t.mass, t.q);
     VecX x = r;
     solve(t.tree, M, x);
@@ -153,7 +153,7 @@ TEST(ArcMatrix, DeepTreesKeepTheirDigits) {
   const test::Evaluation at = test::evaluate(t);
   const MatX dense = arc_matrix(lagrangian(t.tree, t.mass, t.q, t.v), 0.001);
   ArcMatrix J(t.tree);
-  const VecX r = random.vector(t.tree.coordinates);
+  const VecX r = random.vector(t.tree.n_v);
   VecX x = r;
   ASSERT_TRUE(factorize(t.tree, at.kin, at.comp, 0.001, J));
   solve(t.tree, J, x);
@@ -189,8 +189,8 @@ TEST(SecondPartialsTimes, AgreeWithDenseProducts) {
     const RandomTree t = varied_tree(k);
     const test::Evaluation at = evaluate(t);
     const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
-    const VecX x = Random(static_cast<std::uint64_t>(k)).vector(t.tree.coordinates);
-    VecX by_joint(t.tree.joints()), folded(t.tree.coordinates);
+    const VecX x = Random(static_cast<std::uint64_t>(k)).vector(t.tree.n_v);
+    VecX by_joint(t.tree.joints()), folded(t.tree.n_v);
     to_joints(t.tree, x, by_joint);
     multiply_second_partials(t.tree, at.kin, at.comp, by_joint, times_x);
     const double scale = L.L_vv.norm() + L.L_qq.norm() + L.L_vq.norm();

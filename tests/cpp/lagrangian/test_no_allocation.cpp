@@ -24,7 +24,7 @@ TEST(Allocation, CounterSeesEigenAndTheLibrary) {
   const long before_call = allocations;
   const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
   EXPECT_GE(allocations - before_call, empty + 5);  // L_q, L_v, L_qq, L_vq, L_vv at least
-  EXPECT_EQ(L.L_q.size(), t.tree.coordinates);
+  EXPECT_EQ(L.L_q.size(), t.tree.n_v);
 }
 
 TEST(Allocation, CounterSeesBlocks) {

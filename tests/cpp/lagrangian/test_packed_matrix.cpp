@@ -17,7 +17,7 @@ constexpr int trees = 60;
 constexpr TreeSolver solvers[] = {TreeSolver::automatic, TreeSolver::lu, TreeSolver::sweep};
 
 MatX dense_of(const PackedEvaluation& e, double tau) {
-  MatX J = MatX::Zero(e.t.tree.coordinates, e.t.tree.coordinates);
+  MatX J = MatX::Zero(e.t.tree.n_v, e.t.tree.n_v);
   add_dense(e.t.tree, e.plain.kin, e.plain.comp, tau, J);
   return J;
 }
@@ -31,7 +31,7 @@ TEST(PackedMatrix, SolvesAsADenseMatrixDoes) {
       test::Random random(static_cast<std::uint64_t>(k));
       for (const double tau : {0.0, 0.01, 0.1}) {
         if (!e.t.tree.one_to_one && dense_of(e, tau).fullPivLu().rcond() < 1e-10) continue;
-        const VecX b = random.vector(e.t.tree.coordinates);
+        const VecX b = random.vector(e.t.tree.n_v);
         ASSERT_TRUE(factorize(e.t.tree, e.packed, e.w, tau, J)) << k;
         VecX x = b;
         solve(e.t.tree, e.packed, J, x);
@@ -100,7 +100,7 @@ TEST(PackedMatrix, OneTreeIsSolvedAsAllAre) {
       for (int tree = 0; tree < static_cast<int>(e.packed.trees.size()); ++tree) {
         const PackedPlace place = e.packed.trees[tree];
         const PackedGroup& g = e.packed.groups[place.group];
-        VecX all = VecX::Zero(e.t.tree.coordinates), one(g.positions);
+        VecX all = VecX::Zero(e.t.tree.n_v), one(g.positions);
         for (int i = 0; i < g.positions; ++i) {
           one[i] = 1 + i;
           all[e.packed.joint[g.slot(i) + place.lane]] = one[i];

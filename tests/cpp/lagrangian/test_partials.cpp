@@ -90,8 +90,8 @@ TEST(Partials, AreSymmetricToTheLastBit) {
     const LagrangianPartials L = lagrangian(t.tree, t.mass, t.q, t.v);
     EXPECT_EQ(L.L_qq, MatX(L.L_qq.transpose()));
     EXPECT_EQ(L.L_vv, MatX(L.L_vv.transpose()));
-    EXPECT_EQ(L.L_v.size(), t.tree.coordinates);
-    EXPECT_EQ(L.L_q.size(), t.tree.coordinates);
+    EXPECT_EQ(L.L_v.size(), t.tree.n_v);
+    EXPECT_EQ(L.L_q.size(), t.tree.n_v);
   }
 }
 

@@ -120,7 +120,7 @@ TEST(Shadow, AccelerationOfFreeMotionMaximises) {
   for (int k = 0; k < trees; ++k) {
     const RandomTree t = packed_tree(k);
     Shadow s(t);
-    const VecX d = random.vector(t.tree.coordinates, 0.1);
+    const VecX d = random.vector(t.tree.n_v, 0.1);
     const double kappa = s.term.kappa, size = dense(t, s.packed, t.q, t.v).terms;
     const MatX M = mass_matrix(t.tree, s.packed, t.q);
     const VecX y = s.free.a + d;

@@ -38,8 +38,8 @@ TEST(Coordinates, AreNamedAfterTheirJoint) {
       {JointType::prismatic, {"j"}},
       {JointType::helical, {"j"}},
       {JointType::planar, {"j_x", "j_y", "j_yaw"}},
-      {JointType::spherical, {"j_yaw", "j_pitch", "j_roll"}},
-      {JointType::floating, {"j_x", "j_y", "j_z", "j_yaw", "j_pitch", "j_roll"}},
+      {JointType::spherical, {"j_qx", "j_qy", "j_qz", "j_qw"}},
+      {JointType::floating, {"j_x", "j_y", "j_z", "j_qx", "j_qy", "j_qz", "j_qw"}},
   };
   for (const auto& [type, names] : expected) {
     const Model model = one_joint(joint("j", type, "world", "body"));
@@ -49,15 +49,28 @@ TEST(Coordinates, AreNamedAfterTheirJoint) {
       EXPECT_EQ(c.joint, "j");
       const char last = c.name.back();
       const bool slides = type == JointType::prismatic || last == 'x' || last == 'y' || last == 'z';
-      EXPECT_EQ(c.angular, !slides) << c.name;
+      const bool is_quaternion = c.name.find("_q") != std::string::npos;
+      EXPECT_EQ(c.unit, is_quaternion ? Unit::one : slides ? Unit::metre : Unit::radian) << c.name;
     }
     ASSERT_EQ(model->joints.size(), 1u);
     EXPECT_EQ(model->joints[0].type, type);
     EXPECT_EQ(model->joints[0].parent, "world");
     EXPECT_EQ(model->joints[0].child, "body");
-    EXPECT_EQ(model->joints[0].frames.size(), names.size());
+    EXPECT_EQ(model->joints[0].frames.size(), static_cast<std::size_t>(model.n_v()));
+    EXPECT_EQ(model->joints[0].velocities.size(), static_cast<std::size_t>(model.n_v()));
     EXPECT_EQ(model->joints[0].coordinates.size(), names.size());
   }
+}
+
+TEST(Coordinates, VelocitiesHaveNamesOfTheirOwnWhereThereAreBalls) {
+  const auto velocities = [](JointType type) {
+    return one_joint(joint("j", type, "world", "body"))->velocity_names;
+  };
+  EXPECT_EQ(velocities(JointType::revolute), (Names{"j"}));
+  EXPECT_EQ(velocities(JointType::planar), (Names{"j_x", "j_y", "j_yaw"}));
+  EXPECT_EQ(velocities(JointType::spherical), (Names{"j_wx", "j_wy", "j_wz"}));
+  EXPECT_EQ(velocities(JointType::floating),
+            (Names{"j_vx", "j_vy", "j_vz", "j_wx", "j_wy", "j_wz"}));
 }
 
 TEST(Coordinates, CarryLimitsDampingAndFriction) {
@@ -97,11 +110,11 @@ TEST(Joints, MoveTheirChildAsTheyShould) {
   expect(pose_of(JointType::continuous, q), {turned, Vec3::Zero()});
   expect(pose_of(JointType::prismatic, q), {Mat3::Identity(), 0.8 * axis});
   expect(pose_of(JointType::helical, q), {turned, 0.3 * 0.8 * axis});
-  expect(pose_of(JointType::spherical, Vec3(0.1, 0.2, 0.3)),
-         {rotation_from_rpy(0.3, 0.2, 0.1), Vec3::Zero()});
-  Eigen::Matrix<double, 6, 1> six;
-  six << 1, 2, 3, 0.1, 0.2, 0.3;
-  expect(pose_of(JointType::floating, six), {rotation_from_rpy(0.3, 0.2, 0.1), {1, 2, 3}});
+  const Mat3 R = rotation_from_rpy(0.3, 0.2, 0.1);
+  VecX seven(7);
+  seven << 1, 2, 3, Quaternion(R).coeffs();
+  expect(pose_of(JointType::spherical, seven.tail(4)), {R, Vec3::Zero()});
+  expect(pose_of(JointType::floating, seven), {R, {1, 2, 3}});
   // planar: x and y in the plane, yaw about its normal
   const Pose flat = X_PJ.inverse() * pose_of(JointType::planar, Vec3(3, 4, 0.8));
   EXPECT_LT((flat.R - turned).norm(), rounding);
@@ -175,7 +188,7 @@ TEST(Mimic, ChainsAreFlattened) {
   EXPECT_EQ(coordinate_names(model), (Names{"shoulder", "elbow"}));
   EXPECT_FALSE(model->tree.one_to_one);
   const Drive& drive = model->tree.drive[3];
-  EXPECT_EQ(drive.coordinate, 1);
+  EXPECT_EQ(drive.velocity, 1);
   EXPECT_NEAR(drive.multiplier, -6, rounding);
   EXPECT_NEAR(drive.offset, 0.7, rounding);
   EXPECT_EQ(model->joints[3].name, "finger");

@@ -66,8 +66,9 @@ TEST(Model, IsBuiltAgainOfItsDescription) {
                           .add_warning("a warning")
                           .build();
   const Model again = ModelBuilder(*model->description).build();
-  const VecX q = VecX::LinSpaced(model.n_q(), 0.1, 0.9);
-  const VecX v = VecX::LinSpaced(model.n_q(), -1, 1);
+  std::mt19937_64 random(1);
+  const VecX q = model.random_configuration(random);
+  const VecX v = VecX::LinSpaced(model.n_v(), -1, 1);
   EXPECT_EQ(again.state(q, v), model.state(q, v));
   EXPECT_EQ(again.gaps(q).phi, model.gaps(q).phi);
   EXPECT_EQ(again.pair_name(0), model.pair_name(0));
@@ -98,18 +99,18 @@ TEST(State, MistakesAreNamed) {
   EXPECT_EQ(refusal([&] { model.state({{"elbw", 0.3}}); }),
             "no coordinate \"elbw\"; there are shoulder, elbow");
   EXPECT_EQ(refusal([&] { model.state({}, {{"wrist", 0.3}}); }),
-            "no coordinate \"wrist\"; there are shoulder, elbow");
+            "no velocity \"wrist\"; there are shoulder, elbow");
   EXPECT_EQ(refusal([&] { model.state({{"elbow", nan}}); }),
             "coordinate \"elbow\" = nan is not finite");
   EXPECT_EQ(refusal([&] { model.state({}, {{"shoulder", inf}}); }),
-            "coordinate \"shoulder\" = inf is not finite");
+            "velocity \"shoulder\" = inf is not finite");
   EXPECT_EQ(refusal([&] { model.state({}, {}, nan); }), "t is not finite");
   EXPECT_EQ(refusal([&] { model.state(Eigen::Vector2d(0, nan), VecX::Zero(2)); }),
             "q[1] = nan is not finite");
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(3), VecX::Zero(2)); }),
             "q has 3 entries; the model has 2 coordinates");
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(2), VecX::Zero(1)); }),
-            "v has 1 entries; the model has 2 coordinates");
+            "v has 1 entries; the model has 2 velocities");
 }
 
 // Every door checks its arrays, so that no index is ever out of range behind it.
@@ -120,13 +121,15 @@ TEST(Model, ChecksEveryArray) {
     const std::string problem =
         x.size() == 1 ? " has 1 entries; the model has 2 coordinates" : "[1] = -inf is not finite";
     EXPECT_EQ(refusal([&] { model.lagrangian(x, good); }), "q" + problem);
-    EXPECT_EQ(refusal([&] { model.lagrangian(good, x); }), "v" + problem);
+    const std::string rates =
+        x.size() == 1 ? " has 1 entries; the model has 2 velocities" : "[1] = -inf is not finite";
+    EXPECT_EQ(refusal([&] { model.lagrangian(good, x); }), "v" + rates);
     EXPECT_EQ(refusal([&] { model.mass_matrix(x); }), "q" + problem);
     EXPECT_EQ(refusal([&] { model.gaps(x); }), "q" + problem);
     EXPECT_EQ(refusal([&] { model.potential_energy(x); }), "q" + problem);
     EXPECT_EQ(refusal([&] { model.X_WL(x, 0); }), "q" + problem);
     EXPECT_EQ(refusal([&] { model.velocity({0, x, good}); }), "state.q" + problem);
-    EXPECT_EQ(refusal([&] { model.velocity({0, good, x}); }), "state.p" + problem);
+    EXPECT_EQ(refusal([&] { model.velocity({0, good, x}); }), "state.p" + rates);
     EXPECT_EQ(refusal([&] { model.kinetic_energy({0, x, good}); }), "state.q" + problem);
   }
   EXPECT_EQ(refusal([&] { check_vector(good, 2, "q"); }), "accepted");

@@ -157,9 +157,9 @@ TEST(HalfSpace, LiesBelowItsPlane) {
   ModelBuilder builder = two_balls();
   builder.add_half_space("slope", Vec3(0, 3, 4), 10);  // (0, .6, .8).x = 2
   const Model model = builder.build();
-  VecX q = VecX::Zero(12);
+  VecX q = model.neutral();
   q.head(3) = Vec3(7, 0.6, 0.8) * 3;  // 3 along the normal
-  q.segment(6, 3) = Vec3(0, 9, 0);
+  q.segment(7, 3) = Vec3(0, 9, 0);
   const Gaps gaps = model.gaps(q);
   const auto gap_of = [&](const std::string& name) {
     const auto found = std::find(gaps.names.begin(), gaps.names.end(), name);

@@ -103,7 +103,7 @@ ArcMatrix::ArcMatrix(const Tree& tree)
       a(tree.parent.size()),
       e(tree.joints()) {
   if (tree.one_to_one) return;
-  dense.setIdentity(tree.coordinates, tree.coordinates);
+  dense.setIdentity(tree.n_v, tree.n_v);
   lu.compute(dense);  // allocates here, so that factorize does not
 }
 
@@ -141,9 +141,9 @@ void add_dense(const Tree& tree, const Kinematics& kin, const Composite& comp, d
       const Drive& di = tree.drive[i];
       const double scale = di.multiplier * dj.multiplier;
       const double gravity = quarter * angular(m.S).dot(c.G);
-      out(di.coordinate, dj.coordinate) += scale * ((m.S - half * m.W).dot(plus) - gravity);
+      out(di.velocity, dj.velocity) += scale * ((m.S - half * m.W).dot(plus) - gravity);
       if (i != j) {
-        out(dj.coordinate, di.coordinate) += scale * ((m.S + half * m.W).dot(minus) - gravity);
+        out(dj.velocity, di.velocity) += scale * ((m.S + half * m.W).dot(minus) - gravity);
       }
     }
   }

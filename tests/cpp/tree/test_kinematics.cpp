@@ -71,7 +71,7 @@ TEST(Kinematics, VelocitiesAddScrewsAlongTheBranch) {
       Vec6 V = Vec6::Zero();
       for (int k = i; k >= 0; k = t.tree.parent[k]) {
         const Drive& drive = t.tree.drive[k];
-        V += kin.joint[k].S * drive.multiplier * t.v[drive.coordinate];
+        V += kin.joint[k].S * drive.multiplier * t.v[drive.velocity];
       }
       EXPECT_LT((kin.joint[i].V - V).norm(), 10 * rounding);
     }

@@ -28,7 +28,7 @@ TEST(Tree, DerivedFieldsOfTwoTrees) {
   EXPECT_EQ(add_joint(tree, 0, revolute, {}, {4, 1, 0}), 4);
   EXPECT_EQ(add_joint(tree, 1, revolute, {}, {5, 1, 0}), 5);
   EXPECT_EQ(tree.joints(), 6);
-  EXPECT_EQ(tree.coordinates, 6);
+  EXPECT_EQ(tree.n_v, 6);
   EXPECT_EQ(tree.parent, (std::vector<int>{-1, -1, 0, 2, 0, 1}));
   EXPECT_EQ(tree.root, (std::vector<int>{0, 1, 0, 0, 0, 1}));
   EXPECT_EQ(tree.reference[0], 3);  // the first that turns, and it stays so
@@ -51,7 +51,7 @@ TEST(Tree, OneToOneEndsWithAnyOtherDrive) {
     EXPECT_TRUE(tree.one_to_one);
     add_joint(tree, 0, revolute, {}, drive);
     EXPECT_FALSE(tree.one_to_one);
-    EXPECT_EQ(tree.coordinates, std::max(1, drive.coordinate + 1));
+    EXPECT_EQ(tree.n_v, std::max(1, drive.velocity + 1));
     add_joint(tree, 1, revolute, {}, {2, 1, 0});
     EXPECT_FALSE(tree.one_to_one);
   }

@@ -22,7 +22,7 @@ std::string balls(const std::string& block = "", const std::string& more = "") {
 Names pairs(const std::string& block, const std::optional<std::string>& srdf = {},
             const std::string& more = "") {
   const Model model = load(balls(block, more), {.srdf = srdf});
-  return model.gaps(VecX::Zero(model->tree.coordinates)).names;
+  return model.gaps(model.neutral()).names;
 }
 
 const Names all = {"a ~ c", "a ~ d", "b ~ c", "b ~ d", "c ~ d"};

@@ -68,12 +68,20 @@ TEST(UrdfJoints, FixedHasNoCoordinateAndIgnoresItsAxis) {
   EXPECT_EQ(model->joints[0].type, JointType::fixed);
 }
 
-TEST(UrdfJoints, FloatingHasSixCoordinates) {
+/// The quaternion of joint "j" by names.
+std::map<std::string, double> turned(const Mat3& R, std::map<std::string, double> q = {}) {
+  const Quaternion x(R);
+  q.insert({{"j_qx", x.x()}, {"j_qy", x.y()}, {"j_qz", x.z()}, {"j_qw", x.w()}});
+  return q;
+}
+
+TEST(UrdfJoints, FloatingIsAPositionAndAQuaternion) {
   const Model model = load(one_joint("floating", "<origin xyz=\"0 0 1\"/>"));
-  ASSERT_EQ(model.n_q(), 6);
-  const Pose X = pose_of(
-      model, "body",
-      {{"j_x", 1}, {"j_y", 2}, {"j_z", 3}, {"j_yaw", 0.3}, {"j_pitch", 0.2}, {"j_roll", 0.1}});
+  ASSERT_EQ(model.n_q(), 7);
+  ASSERT_EQ(model.n_v(), 6);
+  const Pose X =
+      pose_of(model, "body",
+              turned(rotation_from_rpy(0.1, 0.2, 0.3), {{"j_x", 1}, {"j_y", 2}, {"j_z", 3}}));
   expect_near(X.p, {1, 2, 4});
   expect_near(X.R, rotation_from_rpy(0.1, 0.2, 0.3), 4e-16);
 }
@@ -91,12 +99,13 @@ TEST(UrdfJoints, PlanarMovesNormalToItsAxis) {
   expect_near(Y.R, turn(0.3, Vec3::UnitY()));
 }
 
-TEST(UrdfJoints, SphericalAndBallAreYawPitchRoll) {
+TEST(UrdfJoints, SphericalAndBallAreAQuaternion) {
   for (const char* type : {"spherical", "ball"}) {
     const Model model = load(one_joint(type, "<origin xyz=\"0 1 0\"/>"));
-    ASSERT_EQ(model.n_q(), 3);
+    ASSERT_EQ(model.n_q(), 4);
+    ASSERT_EQ(model.n_v(), 3);
     EXPECT_EQ(model->joints[0].type, JointType::spherical);
-    const Pose X = pose_of(model, "body", {{"j_yaw", 0.3}, {"j_pitch", 0.2}, {"j_roll", 0.1}});
+    const Pose X = pose_of(model, "body", turned(rotation_from_rpy(0.1, 0.2, 0.3)));
     expect_near(X.R, rotation_from_rpy(0.1, 0.2, 0.3), 4e-16);
     expect_near(X.p, {0, 1, 0});
   }
@@ -129,8 +138,8 @@ TEST(UrdfJoints, LimitsAndDynamicsAreKept) {
   EXPECT_EQ(c.velocity, 4);
   EXPECT_EQ(c.damping, 0.5);
   EXPECT_EQ(c.friction, 0.25);
-  EXPECT_TRUE(c.angular);
-  EXPECT_FALSE(load(one_joint("prismatic", limit))->coordinates[0].angular);
+  EXPECT_EQ(c.unit, Unit::radian);
+  EXPECT_EQ(load(one_joint("prismatic", limit))->coordinates[0].unit, Unit::metre);
 }
 
 TEST(UrdfJoints, LimitsThatAreNotGivenAreInfiniteButPositionsAreZero) {

@@ -87,17 +87,18 @@ TEST(UrdfLinks, TheRootMayFloat) {
   const std::string text =
       robot(ball_link("pelvis") + ball_link("leg") + joint("hip", "continuous", "pelvis", "leg"));
   const Model model = load(text, {.root_joint = JointType::floating});
-  ASSERT_EQ(model.n_q(), 7);
+  ASSERT_EQ(model.n_q(), 8);
+  ASSERT_EQ(model.n_v(), 7);
   EXPECT_EQ(model->coordinates[0].name, "root_x");
-  EXPECT_EQ(model->coordinates[6].name, "hip");
+  EXPECT_EQ(model->coordinates[7].name, "hip");
   EXPECT_EQ(model->links[0].name, "world");
   expect_near(pose_of(model, "pelvis", {{"root_z", 2}}).p, {0, 0, 2});
-  EXPECT_DOUBLE_EQ(model.mass_matrix(VecX::Zero(7))(0, 0), 4);  // all of the mass
+  EXPECT_DOUBLE_EQ(model.mass_matrix(model.neutral())(0, 0), 4);  // all of the mass
 }
 
 TEST(UrdfLinks, TheRootMayMoveOtherwise) {
   const std::string text = robot(ball_link("cart"));
-  EXPECT_EQ(load(text, {.root_joint = JointType::spherical}).n_q(), 3);
+  EXPECT_EQ(load(text, {.root_joint = JointType::spherical}).n_q(), 4);
   const Model flat = load(text, {.root_joint = JointType::planar});
   expect_near(pose_of(flat, "cart", {{"root_x", 1}, {"root_y", 2}}).p, {1, 2, 0});
   const Model lift = load(text, {.root_joint = JointType::prismatic});
@@ -117,7 +118,7 @@ TEST(UrdfLinks, NamesOfTheRootJointAreNew) {
   const Model model = load(text, {.root_joint = JointType::floating});
   EXPECT_EQ(model->links[0].name, "world_");
   EXPECT_EQ(model->coordinates[0].name, "root__x");
-  EXPECT_EQ(model->coordinates[6].name, "root");
+  EXPECT_EQ(model->coordinates[7].name, "root");
 }
 
 TEST(UrdfLinks, NameSourceAndGravity) {

@@ -72,7 +72,7 @@ TEST_P(UrdfCradle, MassMatrixIsThatOfPendulumsOfOneMetre) {
 TEST(UrdfModelFiles, BouncingBall) {
   const Model model = load_file("bouncing_ball");
   EXPECT_EQ(model->coordinates[0].name, "height");
-  EXPECT_FALSE(model->coordinates[0].angular);
+  EXPECT_EQ(model->coordinates[0].unit, Unit::metre);
   const State at = model.state({{"height", 1.5}}, {{"height", 2.0}});
   EXPECT_EQ(model.gaps(at.q).names, std::vector<std::string>{"ball ~ floor"});
   EXPECT_DOUBLE_EQ(model.gaps(at.q).phi[0], 1.4);

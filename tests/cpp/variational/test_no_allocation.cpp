@@ -60,7 +60,7 @@ TEST(Stepper, ABallThatBouncesSlidesAndRollsAllocatesNothing) {
 TEST(Stepper, ABoxThatSlidesToRestAllocatesNothing) {
   const Model model = scenes::boxes_on_slope(1, Vec3(0.2, 0.15, 0.1), 0.1, {0, 0.5});
   Stepper stepper(model, {.h = 0.01});
-  State state = model.state({}, {{model->coordinates[0].name, 1}});
+  State state = model.state({}, {{model->velocity_names[0], 1}});
   for (int k = 0; k < 3; ++k) stepper.step(state);
   const long before = allocations;
   for (int k = 0; k < 300; ++k) stepper.step(state);

@@ -56,7 +56,7 @@ struct BroadPhase {
   std::vector<Near> near;  ///< those of `met` that are watched, ascending
 };
 
-/// Writes bp.candidates: every pair that can come to phi <= margin on the chord from q by dq (n_q).
+/// Writes bp.candidates: every pair that can come to phi <= margin on the chord from q by dq (n_v).
 /// Needs set_configuration at q, and the tree, shapes and pairs that `bp` was made for.
 SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
                                    const PairTable& pairs, const Kinematics& kin, const VecRef& dq,

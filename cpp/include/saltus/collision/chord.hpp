@@ -1,4 +1,5 @@
-// Certified advance along a chord q(s) = q + s dq, s in [0, 1]: no root of a gap is stepped over.
+// Certified advance along a chord q(s) = q (+) s dq, s in [0, 1], dq (n_v): no root of a gap is
+// stepped over.
 //
 // Theory, section 4, in the sharper form that convexity allows (derived in chord.cpp): with x the
 // points of a's core seen from b, mu >= |phi'|, B >= |x''|, C >= |x'''| from the reaches of the
@@ -25,7 +26,7 @@ struct ChordHit {
 SALTUS_EXPORT double gap_change_bound(const Tree& tree, const Pair& pair, const VecRef& q,
                                       const VecRef& dq);
 
-/// First s >= 0 with phi(q + s dq) <= floor, looking from s = 0 where phi >= floor or, for a pair
+/// First s >= 0 with phi(q (+) s dq) <= floor, looking from s = 0 where phi >= floor or, for a pair
 /// that touches or overlaps there, from its departure on: a pair with phi <= floor and phi' > 0 is
 /// not a hit at s = 0, one with phi' <= 0 is ("=" in both: up to rounding). An s that is hit is
 /// never late, and early by less than phi's rounding. Edges of solids (PairKind::crossing) have no

@@ -98,11 +98,12 @@ SALTUS_EXPORT double edge_distance(const Tree& tree, const Kinematics& kin, cons
 SALTUS_EXPORT void put_plane_on_b(const Tree& tree, const Kinematics& kin, const Vec3& p_W,
                                   const Vec3& n_W, Pair& pair);
 
-/// Adds the pair's gradient to `phi_q` (n_q), through the drives of mimic joints.
+/// Adds the pair's gradient to `phi_q` (n_v), through the drives of mimic joints.
 SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                     const Gap& gap, Eigen::Ref<VecX> phi_q);
 
-/// Adds the pair's Hessian to `phi_qq` (n_q, n_q).
+/// Adds the pair's Hessian to `phi_qq` (n_v, n_v), symmetric: v.phi_qq v is the second derivative of
+/// phi along q (+) s v, a ball turning at a constant rate.
 SALTUS_EXPORT void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                    const Gap& gap, Eigen::Ref<MatX> phi_qq);
 

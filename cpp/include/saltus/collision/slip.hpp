@@ -26,7 +26,7 @@ SALTUS_EXPORT Tangents tangents(const Vec3& n_W, int axis);
 /// Where the two touch: halfway between the witnesses, which are one point where phi = 0.
 inline Vec3 contact_point(const Gap& gap) { return (gap.p_WA + gap.p_WB) / 2; }
 
-/// Adds the gradient of the motion along d_W, at P_W, to `row` (n_q), through the drives of mimic
+/// Adds the gradient of the motion along d_W, at P_W, to `row` (n_v), through the drives of mimic
 /// joints.
 SALTUS_EXPORT void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                        const Vec3& P_W, const Vec3& d_W, Eigen::Ref<VecX> row);

@@ -11,6 +11,18 @@
 //   L_vv[i,j] = S_i.U_j              L_vq[i,j] = S_i.F_j             for i at or above j
 //   L_vq[j,i] = W_i.U_j              L_qq[i,j] = W_i.F_j + S_i.G_j   all other pairs are zero
 //
+// Joints of a ball: L_v, L_q are the derivatives by its angular velocity w and by R -> exp(eta) R
+// with w held, in the axes of the placement; W takes V of the third joint. Within a ball all nine
+// pairs hold, each joint as if above the others, and L_qq is not symmetric (theory, O1).
+//
+// An arc of duration tau, evaluated in its middle, has the momenta L_v' -+ tau/2 L_q' at its ends,
+// where joints of a ball have, with f = tau w (theory, O2),
+//
+//   L_q' = L_q + w x L_v                                    the torque on the ball
+//   L_v' = L_v - c1 f x (f x L_v) + tau/2 c2 f x L_q'       c1, c2: rotation.hpp
+//
+// and all others L_v' = L_v, L_q' = L_q.
+//
 // Plain loops of the same formulas, in the tests, are the reference that these are compared with.
 #pragma once
 
@@ -23,7 +35,8 @@ struct Packed {
   SALTUS_EXPORT explicit Packed(const PackedTree& tree);
 
   // set_coordinates
-  Blocks<1> s;  ///< displacement of the joint
+  Blocks<1> s;     ///< displacement of the joint; 0 of a ball's
+  Blocks<4> ball;  ///< quaternion x y z w, in the slot of the third joint; empty without balls
   // set_rates
   Blocks<1> s_dot;
   // place
@@ -40,6 +53,9 @@ struct Packed {
   Blocks<2> first;  ///< L_v, L_q by joint
   Blocks<1> scale;  ///< bound of the terms whose difference an arc's residual is
   Blocks<4> terms;  ///< scratch of scale
+  // arc_pass
+  Blocks<2> arc;       ///< L_v', L_q' by joint
+  Blocks<2> ball_arc;  ///< c1, c2 in the slot of the third joint; empty without balls
   // second_pass
   Blocks<15> U_F_G;
 };
@@ -47,7 +63,7 @@ struct Packed {
 /// s <- what the drives make of q (n_q).
 SALTUS_EXPORT void set_coordinates(const Tree& tree, const PackedTree& packed, const VecRef& q,
                                    Packed& w);
-/// s_dot <- what the drives make of v (n_q).
+/// s_dot <- what the drives make of v (n_v).
 SALTUS_EXPORT void set_rates(const Tree& tree, const PackedTree& packed, const VecRef& v,
                              Packed& w);
 
@@ -57,6 +73,8 @@ SALTUS_EXPORT void place(const PackedTree& packed, Packed& w);
 SALTUS_EXPORT void move(const PackedTree& packed, Packed& w);
 /// L_v, L_q; needs move.
 SALTUS_EXPORT void first_pass(const PackedTree& packed, Packed& w);
+/// L_v', L_q' of an arc of duration tau; needs first_pass.
+SALTUS_EXPORT void arc_pass(const PackedTree& packed, double tau, Packed& w);
 /// scale of an arc's residual, of duration tau; needs first_pass.
 SALTUS_EXPORT void scale_pass(const PackedTree& packed, double tau, Packed& w);
 /// U, F, G; needs first_pass, once after each.
@@ -72,7 +90,7 @@ struct PackedProducts {
   PackedProducts() = default;
   SALTUS_EXPORT explicit PackedProducts(const PackedTree& tree);
 
-  Blocks<3> by_joint;  ///< L_vq v, L_vq^T v, L_qq v
+  Blocks<3> by_joint;  ///< L_vq v, L_qv v, L_qq v; L_qv = L_vq^T
   Blocks<15> below;    ///< scratch: sums over subtrees
   Blocks<6> above;     ///< scratch: sums over ancestors
 };
@@ -90,7 +108,7 @@ SALTUS_EXPORT void copy_poses(const Tree& tree, const PackedTree& packed, const 
                               Kinematics& kin);
 
 /// Adjoint of set_rates: out[c] <- sum of multiplier * number `which` over the joints that
-/// coordinate c drives.
+/// velocity c drives.
 template <int C>
 void gather(const Tree& tree, const PackedTree& packed, const Blocks<C>& from, int which,
             VecX& out) {
@@ -101,7 +119,7 @@ void gather(const Tree& tree, const PackedTree& packed, const Blocks<C>& from, i
   out.setZero();
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    out[drive.coordinate] += drive.multiplier * at(from, packed.slot[i])[which * lanes];
+    out[drive.velocity] += drive.multiplier * at(from, packed.slot[i])[which * lanes];
   }
 }
 

@@ -15,6 +15,10 @@
 //                  P_parent += P - (P s + w) row / D,    c_parent += c + (P s + w) e / D
 //   root to leaf:  x = (e - row.a_parent) / D,           a = a_parent + s x
 //
+// A ball's rows are multiplied by K = J(tau w) (rotation.hpp), and so are the right-hand sides that
+// solve takes: callers give momenta. Its generators are turned, and all nine of its entries are
+// J_ij = t_i.w_j + Delta_ij, so that the sweep takes the three joints at once (theory, O2).
+//
 // Mimic joints tie distant branches together; there the dense matrix C^T J C is factored.
 #pragma once
 
@@ -31,7 +35,13 @@ struct PackedMatrix {
   bool symmetric = false;  ///< tau = 0: `upper` is not used
   Blocks<18> s_t;          ///< generators of J by its ancestors
   Blocks<18> u_w;          ///< and by its descendants
-  Blocks<1> inverse;       ///< 1 / pivot; a slot whose pivot failed holds what is not finite
+  /// 1 / pivot; a slot whose pivot failed holds what is not finite. Of balls in the sweep only
+  /// where tau = 0.
+  Blocks<1> inverse;
+  /// K, C = J(tau w / 2) and Delta by columns, in the slot of a ball's third joint; empty without
+  /// balls. Not written where tau = 0.
+  Blocks<27> ball;
+  Blocks<8> ball_k;  ///< scratch: coefficients of K and C
 
   // lu
   PackedRows lower, upper;  ///< row j: J_ji and J_ij, eliminated
@@ -47,16 +57,17 @@ struct PackedMatrix {
   std::vector<Nine> s, t, gain, row, c, a;
   std::vector<Carried> branch;  ///< sums at joints with several children
   std::vector<int> branch_of;   ///< (slots) index in `branch`, or -1
+  Blocks<9> pivot;              ///< inverse of a ball's 3x3 pivot, as `ball`
 
   // mimic joints
-  MatX dense;                    ///< (n_q, n_q)
+  MatX dense;                    ///< (n_v, n_v)
   Eigen::PartialPivLU<MatX> lu;  ///< of dense
-  VecX solution;                 ///< (n_q) scratch of solve
+  VecX solution;                 ///< (n_v) scratch of solve
 
   Blocks<1> x;  ///< scratch of solve, by slot
 };
 
-/// Factors of J(tau); needs second_pass, or mass_pass for tau = 0.
+/// Factors of J(tau); needs second_pass and, for balls, arc_pass at tau; or mass_pass for tau = 0.
 /// @return false where a pivot vanishes or is not a number: J is singular there.
 SALTUS_EXPORT bool factorize(const Tree& tree, const PackedTree& packed, const Packed& w,
                              double tau, PackedMatrix& J);
@@ -65,7 +76,22 @@ SALTUS_EXPORT bool factorize(const Tree& tree, const PackedTree& packed, const P
 /// mimic joints.
 SALTUS_EXPORT void solve_tree(const PackedTree& packed, int tree, PackedMatrix& J, double* x);
 
-/// x <- J^-1 x, x (n_q).
+/// x <- J^-1 x, x (n_v): what a change of the momenta at an arc's start does to its velocity.
 SALTUS_EXPORT void solve(const Tree& tree, const PackedTree& packed, PackedMatrix& J, VecX& x);
+
+/// x <- (K^-1 J)^-1 x: the same of an x that has been multiplied by K already.
+SALTUS_EXPORT void solve_scaled(const Tree& tree, const PackedTree& packed, PackedMatrix& J,
+                                VecX& x);
+
+/// x <- K^T x: from a derivative by the end of an arc to that by its velocity, over tau. Needs
+/// factorize.
+SALTUS_EXPORT void pull_back_end(const PackedTree& packed, const PackedMatrix& J, VecX& x);
+/// x <- C^T x: likewise from one by its middle, over tau / 2.
+SALTUS_EXPORT void pull_back_middle(const PackedTree& packed, const PackedMatrix& J, VecX& x);
+
+/// rate <- -K dp_start/dtau of an arc (theory, section 3 and O2), what solve_scaled takes to dv/dtau.
+/// Needs factorize; `products` are scratch, x too.
+SALTUS_EXPORT void set_momentum_rate(const Tree& tree, const PackedTree& packed, const Packed& w,
+                                     double tau, PackedProducts& products, VecX& x, VecX& rate);
 
 }  // namespace saltus

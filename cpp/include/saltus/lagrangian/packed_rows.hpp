@@ -37,7 +37,10 @@ struct SecondPartials {
   PackedRows L_vv;  ///< L_vv[i, j] = S_i.U_j
   PackedRows L_qq;  ///< L_qq[i, j] = W_i.F_j + S_i.G_j
   PackedRows L_vq;  ///< L_vq[i, j] = S_i.F_j
-  PackedRows L_qv;  ///< L_vq[j, i] = W_i.U_j
+  PackedRows L_qv;  ///< L_vq[j, i] = W_i.U_j, within a ball S_j.F_i
+  /// Within a ball, in the slot of its third joint: L_qq[y, x], [z, x], [z, y], where L_qq is not
+  /// symmetric. Empty without balls.
+  Blocks<3> L_qq_lower;
   Blocks<12> path;  ///< scratch: S, W of the ancestors, by level
 
   SecondPartials() = default;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "saltus/lagrangian/mass_model.hpp"
+#include "saltus/tree/coordinates.hpp"
 #include "saltus/tree/kinematics.hpp"
 
 namespace saltus {
@@ -63,6 +64,7 @@ struct PackedGroup {
   std::vector<int> level;           ///< (positions) ancestors of each
   std::vector<long> row;            ///< (positions) block where its row begins, see PackedRows
   std::vector<int> reference_path;  ///< positions from the joint at the reference point to the root
+  std::vector<int> balls;           ///< positions of the first joints of balls; the others follow
 
   int slot(int position) const { return first + position * width; }
 };
@@ -70,6 +72,12 @@ struct PackedGroup {
 /// Where a tree is.
 struct PackedPlace {
   int group, lane;
+};
+
+/// A ball, its joints in three slots.
+struct PackedBall {
+  int slot[3];
+  int velocity, coordinate;  ///< as in Ball
 };
 
 struct PackedTree {
@@ -82,6 +90,7 @@ struct PackedTree {
   long row_blocks = 0;     ///< of all rows
   long lu_row_blocks = 0;  ///< of those of groups that lu solves; they come first
   bool one_to_one = true;  ///< as in Tree
+  std::vector<PackedBall> balls;  ///< as in Tree
 
   Blocks<12> X;      ///< placement: R by columns, p
   Blocks<2> kind;    ///< what a unit of displacement turns and slides: 1, 0 | 0, 1 | 1, pitch

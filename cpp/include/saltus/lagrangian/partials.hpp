@@ -6,18 +6,22 @@
 namespace saltus {
 
 /// L = T - V at one (q, v). Row = velocity in L_vq: `L_vq(i, j) = d2L / dv_i dq_j`.
+///
+/// Derivatives by q are along velocities (n_v). Of a ball they are by eta of R -> exp(eta) R in the
+/// axes of its placement, with the angular velocity in these axes held: L_q(i) is the slope along
+/// eta_i, and L_qq(i, j) that of L_q(i) along eta_j, which is not symmetric within a ball.
 struct LagrangianPartials {
   double value = 0;  ///< [J]
-  VecX L_q, L_v;     ///< (n_q)
-  MatX L_qq, L_vq;   ///< (n_q, n_q)
-  MatX L_vv;         ///< (n_q, n_q) the mass matrix
+  VecX L_q, L_v;     ///< (n_v)
+  MatX L_qq, L_vq;   ///< (n_v, n_v)
+  MatX L_vv;         ///< (n_v, n_v) the mass matrix
 };
 
 /// O(n depth) after the two passes; theory, section 2. `packed` is pack(tree, mass).
 SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const PackedTree& packed,
                                             const VecRef& q, const VecRef& v);
 
-/// M(q) = L_vv, (n_q, n_q).
+/// M(q) = L_vv, (n_v, n_v).
 SALTUS_EXPORT MatX mass_matrix(const Tree& tree, const PackedTree& packed, const VecRef& q);
 
 /// The same for a tree that is used once.

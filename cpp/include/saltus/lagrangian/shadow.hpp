@@ -20,6 +20,9 @@
 //
 // where the last term comes from the direction v of D^2 L, and L_q' = L_qq v + L_vq^T a.
 //
+// With balls M a = L_q + w x L_v - L_vq v, and kappa = a.M a - v.L_qq v as it stands; the gradient
+// is not for them (theory, O6).
+//
 // An a that is wrong by d makes kappa wrong by d^T M d only, its gradient by O(d).
 #pragma once
 
@@ -32,11 +35,11 @@ struct FreeMotion {
   FreeMotion() = default;
   SALTUS_EXPORT FreeMotion(const Tree& tree, const PackedTree& packed);
 
-  VecX a;                   ///< (n_q) [rad/s^2 | m/s^2]
+  VecX a;                   ///< (n_v) [rad/s^2 | m/s^2]
   double kappa = 0;         ///< [J/s^2]
-  VecX force;               ///< (n_q) M a = L_q - L_vq v
+  VecX force;               ///< (n_v) M a = L_q - L_vq v
   PackedProducts products;  ///< of the second partials with v
-  VecX L_vq_v;              ///< (n_q) scratch
+  VecX L_vq_v;              ///< (n_v) scratch
 };
 
 /// Writes all of `out`; needs second_pass, and in M the factors of the mass matrix (tau = 0).
@@ -49,8 +52,8 @@ struct ShadowTerm {
   SALTUS_EXPORT ShadowTerm(const Tree& tree, const PackedTree& packed);
 
   double kappa = 0;  ///< [J/s^2]
-  VecX kappa_q;      ///< (n_q) d kappa / dq
-  VecX kappa_v;      ///< (n_q) d kappa / dv
+  VecX kappa_q;      ///< (n_v) d kappa / dq
+  VecX kappa_v;      ///< (n_v) d kappa / dv
 
   Blocks<1> s_ddot;    ///< a by joint
   Blocks<18> motion;   ///< scratch: Omega', V', V''
@@ -58,7 +61,7 @@ struct ShadowTerm {
   Blocks<3> by_joint;  ///< scratch: what the joint adds to kappa, kappa_q, kappa_v
 };
 
-/// Writes all of `out`; `a` (n_q) is that of free_motion. Needs first_pass at (q, v), which
+/// Writes all of `out`; `a` (n_v) is that of free_motion. Not for trees with balls. Needs first_pass at (q, v), which
 /// second_pass may have followed.
 SALTUS_EXPORT void shadow_gradient(const Tree& tree, const PackedTree& packed, const Packed& w,
                                    const VecRef& a, ShadowTerm& out);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ enum class JointType {
   prismatic,
   helical,
   planar,     ///< x, y, yaw in the plane normal to the axis
-  floating,   ///< x, y, z, then yaw, pitch, roll (singular at pitch = +-pi/2)
-  spherical,  ///< yaw, pitch, roll
+  floating,   ///< x, y, z, then a ball
+  spherical,  ///< a ball: a unit quaternion, nowhere singular
 };
 
 /// A rigid link: a frame that moves with a joint frame.
@@ -33,12 +34,15 @@ struct Link {
   double mass = 0;  ///< [kg] own mass
 };
 
-/// A generalized coordinate and what the file says of it. Limits, damping and friction are kept
-/// for the user; the stepper does not apply them.
+/// What a coordinate is measured in: one of a quaternion's four numbers has no unit.
+enum class Unit { metre, radian, one };
+
+/// A number of q and what the file says of it. Limits, damping and friction are kept for the user;
+/// the stepper does not apply them.
 struct Coordinate {
-  std::string name;                  ///< the joint's name; `<joint>_x` ... for joints of several
-  std::string joint;                 ///< name of the joint that it belongs to
-  bool angular = true;               ///< [rad] or [m]
+  std::string name;   ///< the joint's name; `<joint>_x` ... for joints of several
+  std::string joint;  ///< name of the joint that it belongs to
+  Unit unit = Unit::radian;
   double lower, upper;               ///< [rad | m] infinite where there is none
   double velocity, effort;           ///< limits, infinite where there is none
   double damping = 0, friction = 0;  ///< [N m s/rad | N s/m], [N m | N]
@@ -50,7 +54,8 @@ struct JointInfo {
   JointType type;
   std::string parent, child;     ///< links
   std::vector<int> frames;       ///< joints of the tree, outermost last; none where fixed
-  std::vector<int> coordinates;  ///< those that move it
+  std::vector<int> coordinates;  ///< indices in q of those that move it
+  std::vector<int> velocities;   ///< likewise in v and p
 };
 
 /// Trees that are solved together: one, or equal ones side by side in lanes.
@@ -70,7 +75,9 @@ struct ModelData {
   PackedTree packed;  ///< tree and mass, for the kernels
   std::vector<Link> links;
   std::vector<JointInfo> joints;
-  std::vector<Coordinate> coordinates;  ///< (n_q)
+  std::vector<Coordinate> coordinates;      ///< (n_q)
+  std::vector<std::string> velocity_names;  ///< (n_v) coordinates' names but for balls, and for
+                                            ///< the free joints' `_vx` `_vy` `_vz`
   std::vector<PlacedShape> shapes;
   PairTable pairs;
   MaterialTable materials;
@@ -83,8 +90,8 @@ struct ModelData {
 struct Gaps {
   std::vector<std::string> names;  ///< (m) "a ~ b"
   VecX phi;                        ///< (m) [m] infinite where two parts do not face each other
-  MatX phi_q;                      ///< (m, n_q)
-  std::vector<MatX> phi_qq;        ///< (m) of (n_q, n_q)
+  MatX phi_q;                      ///< (m, n_v)
+  std::vector<MatX> phi_qq;        ///< (m) of (n_v, n_v)
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> normal, p_WA, p_WB;  ///< (m, 3)
 };
 
@@ -94,16 +101,35 @@ class SALTUS_EXPORT Model {
   const ModelData* operator->() const { return data_.get(); }
   const ModelData& operator*() const { return *data_; }
 
-  int n_q() const { return data_->tree.coordinates; }
+  int n_q() const { return data_->tree.n_q; }  ///< numbers in q: a ball has four
+  int n_v() const { return data_->tree.n_v; }  ///< numbers in v and p: a ball has three
 
-  /// State from values by coordinate name (others 0); `v` are velocities, p = M(q) v.
-  /// @throws ModelError on an unknown name or a value that is not finite.
+  /// State from values by name (others as in `neutral`); `v` are velocities, p = M(q) v.
+  /// @throws ModelError on an unknown name, a value that is not finite, or a quaternion that is not
+  ///         of length 1 (to 1e-6).
   State state(const std::map<std::string, double>& q = {},
               const std::map<std::string, double>& v = {}, double t = 0) const;
-  /// The same from arrays (n_q).
+  /// The same from arrays (n_q), (n_v).
   State state(const VecRef& q, const VecRef& v, double t = 0) const;
 
-  VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_q)
+  /// All numbers 0, but quaternions, which are the identity.
+  VecX neutral() const;
+  /// q (+) dv: coordinates after motion at the constant velocities dv for 1 s. Of a ball dv are
+  /// axis times angle, in its parent's axes.
+  VecX integrate(const VecRef& q, const VecRef& dv) const;
+  /// The dv (n_v) with integrate(q0, dv) = q1; of balls the shortest, at most half a turn.
+  VecX difference(const VecRef& q0, const VecRef& q1) const;
+  /// q with its quaternions made of length 1, whatever they were.
+  /// @throws ModelError where one has no length.
+  VecX normalized(const VecRef& q) const;
+  /// Uniform: quaternions over all orientations, others within their limits, where there are none
+  /// within +-pi rad and +-1 m.
+  VecX random_configuration(std::mt19937_64& random) const;
+  /// q as the model takes it: (n_q), finite, quaternions of length 1; those off by less than 1e-6
+  /// are normalised. @throws ModelError otherwise; `what` names the array in the message.
+  VecX checked_q(const VecRef& q, const std::string& what) const;
+
+  VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_v)
   LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
   MatX mass_matrix(const VecRef& q) const;
   /// @throws ModelError where the dense result would not fit into 1 GiB.
@@ -113,6 +139,7 @@ class SALTUS_EXPORT Model {
   Pose X_WL(const VecRef& q, int link) const;       ///< pose of a link in the world
 
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
+  int velocity_index(const std::string& name) const;  ///< likewise, in v and p
   int link(const std::string& name) const;        ///< index, or ModelError with the names there are
   Pair pair(int pair) const;                      ///< what the pair of this number is of
   std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
@@ -128,8 +155,10 @@ class SALTUS_EXPORT Model {
   std::shared_ptr<const ModelData> data_;
 };
 
-/// @throws ModelError unless x has n entries, all finite; `what` names the array in the message.
-SALTUS_EXPORT void check_vector(const VecRef& x, int n, const std::string& what);
+/// @throws ModelError unless x has n entries, all finite; `what` names the array in the message,
+/// `unit` what it has n of.
+SALTUS_EXPORT void check_vector(const VecRef& x, int n, const std::string& what,
+                                const std::string& unit = "coordinates");
 
 /// "a, b, c": the alternatives in an error message, at most 20 of them.
 SALTUS_EXPORT std::string list_names(const std::vector<std::string>& names);

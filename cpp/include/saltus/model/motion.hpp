@@ -19,7 +19,7 @@ SALTUS_EXPORT MatX poses(const Model& model, const AttachedFrame& frame,
                          const Eigen::Ref<const MatX>& q);
 
 /// (rows, 6): angular velocity [rad/s] and velocity of the frame's origin [m/s], in world axes.
-/// @throws ModelError where q and v are not both (rows, n_q) and finite.
+/// @throws ModelError where q is not (rows, n_q), v not (rows, n_v), or one is not finite.
 SALTUS_EXPORT MatX velocities(const Model& model, const AttachedFrame& frame,
                               const Eigen::Ref<const MatX>& q, const Eigen::Ref<const MatX>& v);
 

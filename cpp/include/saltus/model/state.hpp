@@ -7,8 +7,8 @@ namespace saltus {
 
 struct State {
   double t = 0;  ///< [s]
-  VecX q;        ///< (n_q) [rad | m]
-  VecX p;        ///< (n_q) [kg m^2 rad/s | kg m/s] conjugate momenta, p = L_v
+  VecX q;        ///< (n_q) [rad | m], of balls a unit quaternion x y z w
+  VecX p;        ///< (n_v) [kg m^2 rad/s | kg m/s] conjugate momenta, p = L_v
 
   bool operator==(const State& other) const { return t == other.t && q == other.q && p == other.p; }
 };

@@ -43,7 +43,7 @@ struct SALTUS_EXPORT BatchTrajectory {
   Model model;
   StepOptions options;
   VecX t;                           ///< (rows) [s] the same for all runs
-  MatX q, v, p;                     ///< (runs * rows, n_q)
+  MatX q, v, p;                     ///< (runs * rows, n_q), of v and p n_v
   MatX kinetic, potential, shadow;  ///< (runs, rows) [J] as in Trajectory
   std::vector<RunOutcome> outcome;  ///< (runs)
 
@@ -55,7 +55,7 @@ struct SALTUS_EXPORT BatchTrajectory {
   std::map<int, std::string> failures() const;  ///< messages of the runs that failed
 };
 
-/// Starts from arrays (runs, n_q) of coordinates [rad | m] and velocities [rad/s | m/s].
+/// Starts from arrays of coordinates (runs, n_q) [rad | m] and velocities (runs, n_v) [rad/s | m/s].
 /// @throws ModelError on other shapes; on a value that is not finite, by row and coordinate.
 SALTUS_EXPORT std::vector<State> states(const Model& model, const Eigen::Ref<const MatX>& q,
                                         const Eigen::Ref<const MatX>& v, double t = 0);

@@ -14,7 +14,7 @@ struct SALTUS_EXPORT Trajectory {
   Model model;
   StepOptions options;
   VecX t;                       ///< (rows) [s]
-  MatX q, v, p;                 ///< (rows, n_q)
+  MatX q, v, p;                 ///< (rows, n_q), of v and p n_v
   VecX kinetic, potential;      ///< (rows) [J]
   VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
   std::vector<Impact> impacts;  ///< in order of time

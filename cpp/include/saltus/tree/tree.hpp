@@ -1,8 +1,12 @@
 // The tree of joints: one-degree joints, each a unit screw about the z axis of its own frame.
 //
-// X_PJ(q) = X_PJ(0) exp(s e_z), s = multiplier * q[coordinate] + offset, for joint J with parent P.
-// Every axis is re-framed to z when the joint is added, so that the kinematics have no case for
-// the direction of an axis. Fixed joints do not exist here: they are folded into placements.
+// X_PJ(q) = X_PJ(0) exp(s e_z), s = multiplier * q + offset, for joint J with parent P. Every axis
+// is re-framed to z when the joint is added, so that the kinematics have no case for the direction
+// of an axis. Fixed joints do not exist here: they are folded into placements.
+//
+// A ball is three joints of this list through one point, one for each axis x, y, z of its placement
+// (theory, O1). None of them turns the next: their screws do not depend on q, and the frame of the
+// third is turned by a unit quaternion, four numbers of q where v has three.
 #pragma once
 
 #include <vector>
@@ -14,24 +18,36 @@ namespace saltus {
 
 /// A unit screw about (or along) z.
 struct Joint {
-  enum class Kind { revolute, prismatic, helical };
+  enum class Kind { revolute, prismatic, helical, ball };
   Kind kind = Kind::revolute;
   double pitch = 0;  ///< [m/rad] helical only: advance along the axis per radian
+  int axis = 0;      ///< ball only: 0, 1, 2; the third carries what the ball turns
 
   bool turns() const { return kind != Kind::prismatic; }
+  bool is_ball() const { return kind == Kind::ball; }
 };
 
-/// Which coordinate drives a joint: `s = multiplier * q[coordinate] + offset` (mimic joints share
-/// a coordinate).
+/// Which velocity drives a joint: its rate is `multiplier * v[velocity]`, and its displacement, but
+/// for a ball, `multiplier * q[tree.coordinate[velocity]] + offset` (mimic joints share a velocity).
 struct Drive {
-  int coordinate = 0;
+  int velocity = 0;
   double multiplier = 1;
   double offset = 0;
 };
 
+/// Three joints, `joint` the first, and where their numbers are.
+struct Ball {
+  int joint;
+  int velocity;    ///< of the first axis; the others follow
+  int coordinate;  ///< of the quaternion x y z w
+};
+
 /// Joints in topological order: `parent[i] < i`; -1 is the world.
 struct Tree {
-  int coordinates = 0;         ///< n_q
+  int n_q = 0;                 ///< numbers in q: a ball has four
+  int n_v = 0;                 ///< numbers in v and p: a ball has three
+  std::vector<int> coordinate; ///< (n_v) index in q of what v moves; of a ball its quaternion's
+  std::vector<Ball> balls;
   std::vector<int> parent;     ///< (n)
   std::vector<Joint> joint;    ///< (n)
   std::vector<Pose> X_PJ;      ///< (n) placement in the parent's frame at s = 0
@@ -47,10 +63,15 @@ struct Tree {
   }
 };
 
-/// Appends a joint and keeps the derived fields (root, reference, one_to_one) right.
-/// @return index of the new joint. Writes: every field of `tree`.
+/// Appends a joint and keeps the derived fields (n_q, n_v, root, reference, one_to_one) right. A
+/// velocity is numbered when a joint first names it, and those before it that none has named yet.
+/// @return index of the new joint. Writes: every field of `tree` but `balls`.
 SALTUS_EXPORT int add_joint(Tree& tree, int parent, const Joint& joint, const Pose& X_PJ,
                             const Drive& drive);
+
+/// Appends the three joints of a ball, whose velocities are the tree's next three.
+/// @return index of the third, which carries the child. Writes: every field of `tree`.
+SALTUS_EXPORT int add_ball(Tree& tree, int parent, const Pose& X_PJ);
 
 /// Rotation that takes z to the unit vector `axis`; exact (a permutation) for coordinate axes, so
 /// that planar motion stays planar to the last bit.

@@ -26,8 +26,17 @@
 
 #if defined(__GNUC__)
 #define SALTUS_INLINE inline __attribute__((always_inline))
+#define SALTUS_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define SALTUS_INLINE inline
+#define SALTUS_INLINE_LAMBDA
+#endif
+
+// A product that is rounded before it is added to: kernels are compiled with fused sums.
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+#define SALTUS_ROUNDED(x) __builtin_assoc_barrier(x)
+#else
+#define SALTUS_ROUNDED(x) (x)
 #endif
 
 namespace saltus::packed {
@@ -53,6 +62,20 @@ struct M3 {
 
 SALTUS_INLINE V3 operator*(const M3& A, V3 b) { return b.x * A.x + b.y * A.y + b.z * A.z; }
 SALTUS_INLINE M3 operator*(const M3& A, const M3& B) { return {A * B.x, A * B.y, A * B.z}; }
+
+SALTUS_INLINE M3 operator+(const M3& A, const M3& B) { return {A.x + B.x, A.y + B.y, A.z + B.z}; }
+SALTUS_INLINE M3 operator-(const M3& A, const M3& B) { return {A.x - B.x, A.y - B.y, A.z - B.z}; }
+SALTUS_INLINE M3 operator*(double k, const M3& A) { return {k * A.x, k * A.y, k * A.z}; }
+SALTUS_INLINE M3 transpose(const M3& A) {
+  return {{A.x.x, A.y.x, A.z.x}, {A.x.y, A.y.y, A.z.y}, {A.x.z, A.y.z, A.z.z}};
+}
+/// A^T b.
+SALTUS_INLINE V3 dot(const M3& A, V3 b) { return {dot(A.x, b), dot(A.y, b), dot(A.z, b)}; }
+/// a b^T.
+SALTUS_INLINE M3 outer(V3 a, V3 b) { return {b.x * a, b.y * a, b.z * a}; }
+/// [f]: the matrix of f x.
+SALTUS_INLINE M3 cross_matrix(V3 f) { return {{0, f.z, -f.y}, {-f.z, 0, f.x}, {f.y, -f.x, 0}}; }
+SALTUS_INLINE M3 scalar_matrix(double k) { return {{k, 0, 0}, {0, k, 0}, {0, 0, k}}; }
 
 /// Symmetric.
 struct S3 {

@@ -7,6 +7,7 @@
 //
 //   solve, leaves to root:  x_a -= upper[a] x_j / D
 //   root to leaves:         x_j = (x_j - sum lower[a] x_a) / D
+#include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/matrix.hpp"
 
 namespace saltus::packed {
@@ -186,6 +187,7 @@ SALTUS_CLONES void multiply_lu(const PackedGroup& g, PackedMatrix& J) {
   } else {
     J.symmetric ? multiply_equal_trees<true>(g, J) : multiply_equal_trees<false>(g, J);
   }
+  if (!J.symmetric) set_ball_entries(g, J);
 }
 
 SALTUS_CLONES bool eliminate_lu(const PackedGroup& g, PackedMatrix& J) {

@@ -1,5 +1,7 @@
 #include "lagrangian/packed/matrix.hpp"
 
+#include "lagrangian/packed/ball.hpp"
+
 namespace saltus {
 namespace packed {
 namespace {
@@ -66,6 +68,7 @@ bool has_sweep(const PackedTree& t) {
 void prepare_sweep(const PackedTree& t, PackedMatrix& J) {
   const std::size_t n = static_cast<std::size_t>(t.slots);
   for (auto* rows : {&J.s, &J.t, &J.gain, &J.row, &J.c, &J.a}) rows->resize(n);
+  if (!t.balls.empty()) J.pivot.resize(n / lanes);
   J.branch_of.assign(n, -1);
   int branches = 0;
   for (const PackedGroup& g : t.groups) {
@@ -87,8 +90,8 @@ void set_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
     const double scale = di.multiplier * dj.multiplier;
     const double lower = number(J.lower, entry);
     const double upper = J.symmetric ? lower : number(J.upper, entry);
-    J.dense(di.coordinate, dj.coordinate) += scale * upper;
-    if (i != j) J.dense(dj.coordinate, di.coordinate) += scale * lower;
+    J.dense(di.velocity, dj.velocity) += scale * upper;
+    if (i != j) J.dense(dj.velocity, di.velocity) += scale * lower;
   });
 }
 
@@ -112,10 +115,14 @@ PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& packed)
       static_cast<std::size_t>(packed.one_to_one ? packed.lu_row_blocks : packed.row_blocks);
   lower.resize(rows);
   upper.resize(rows);
+  if (!packed.balls.empty()) {
+    ball.resize(n);
+    ball_k.resize(n);
+  }
   if (has_sweep(packed)) prepare_sweep(packed, *this);
   if (packed.one_to_one) return;
-  dense.setIdentity(tree.coordinates, tree.coordinates);
-  solution.setZero(tree.coordinates);
+  dense.setIdentity(tree.n_v, tree.n_v);
+  solution.setZero(tree.n_v);
   lu.compute(dense);  // allocates here, so that factorize does not
 }
 
@@ -126,6 +133,7 @@ bool factorize(const Tree& tree, const PackedTree& t, const Packed& w, double ta
     packed::set_mass_generators(t, w, J);
   } else {
     packed::set_generators(t, w, tau, J);
+    packed::set_ball_generators(t, w, tau, J);
   }
   if (!t.one_to_one) return factorize_dense(tree, t, J);
   for (const PackedGroup& g : t.groups) {
@@ -135,7 +143,26 @@ bool factorize(const Tree& tree, const PackedTree& t, const Packed& w, double ta
   return true;
 }
 
-void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
+namespace {
+
+/// K x of one ball.
+Vec3 times_K(const PackedMatrix& J, const PackedBall& ball, const Vec3& x) {
+  return Eigen::Map<const Mat3, 0, Eigen::Stride<3 * lanes, lanes>>(at(J.ball, ball.slot[2])) * x;
+}
+
+/// x <- A^T x at balls, A from number `first` of J.ball.
+void pull_back(const PackedTree& t, const PackedMatrix& J, int first, VecX& x) {
+  if (J.symmetric) return;
+  for (const PackedBall& ball : t.balls) {
+    const double* A = at(J.ball, ball.slot[2]) + first * lanes;
+    const Eigen::Map<const Mat3, 0, Eigen::Stride<3 * lanes, lanes>> map(A);
+    x.segment<3>(ball.velocity) = (map.transpose() * x.segment<3>(ball.velocity)).eval();
+  }
+}
+
+}  // namespace
+
+void solve_scaled(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
   if (!t.one_to_one) {
     J.solution = J.lu.solve(x);
     x = J.solution;
@@ -148,9 +175,28 @@ void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
   for (int i = 0; i < tree.joints(); ++i) x[i] = *at(J.x, t.slot[i]);
 }
 
+void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
+  for (const PackedBall& ball : t.balls) {
+    if (J.symmetric) break;
+    x.segment<3>(ball.velocity) = times_K(J, ball, x.segment<3>(ball.velocity));
+  }
+  solve_scaled(tree, t, J, x);
+}
+
+void pull_back_end(const PackedTree& t, const PackedMatrix& J, VecX& x) { pull_back(t, J, 0, x); }
+void pull_back_middle(const PackedTree& t, const PackedMatrix& J, VecX& x) {
+  pull_back(t, J, 9, x);
+}
+
 void solve_tree(const PackedTree& t, int tree, PackedMatrix& J, double* x) {
   const PackedPlace& place = t.trees[tree];
   const PackedGroup& g = t.groups[place.group];
+  for (const int k : g.balls) {
+    if (J.symmetric) break;
+    const PackedBall ball{{0, 0, g.slot(k + 2) + place.lane}, 0, 0};
+    const Vec3 scaled = times_K(J, ball, Eigen::Map<const Vec3>(x + k));
+    Eigen::Map<Vec3>(x + k) = scaled;
+  }
   if (!g.sweep) {
     packed::solve_lane(g, place.lane, J, x);
     return;

@@ -18,7 +18,7 @@ bool prefers_sweep(const std::vector<int>& level, bool in_lanes) {
 /// The joints of one tree in preorder, and what must be equal for trees to share lanes.
 struct Shape {
   std::vector<int> joints, parent, level;
-  std::vector<int> reference_path;
+  std::vector<int> reference_path, balls;
   bool branched = false;
   int depth = 0;
 
@@ -26,6 +26,8 @@ struct Shape {
     std::vector<int> out = parent;
     out.push_back(-2);
     out.insert(out.end(), reference_path.begin(), reference_path.end());
+    out.push_back(-2);
+    out.insert(out.end(), balls.begin(), balls.end());
     return out;
   }
 };
@@ -56,6 +58,7 @@ Shape shape_of(const Tree& tree, const std::vector<std::vector<int>>& children, 
     shape.level.push_back(parent < 0 ? 0 : shape.level[parent] + 1);
     shape.depth = std::max(shape.depth, shape.level.back() + 1);
     shape.branched = shape.branched || parent != k - 1;
+    if (tree.joint[i].is_ball() && tree.joint[i].axis == 0) shape.balls.push_back(k);
     stack.insert(stack.end(), children[i].begin(), children[i].end());
   }
   for (int i = tree.reference[root]; i >= 0; i = tree.parent[i]) {
@@ -77,6 +80,7 @@ PackedGroup group_of(const Shape& shape, int trees, int first, TreeSolver solver
   g.parent = shape.parent;
   g.level = shape.level;
   g.reference_path = shape.reference_path;
+  g.balls = shape.balls;
   g.row.resize(g.parent.size());
   return g;
 }
@@ -158,6 +162,10 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
   }
   t.joint.assign(static_cast<std::size_t>(t.slots), -1);
   for (int i = 0; i < tree.joints(); ++i) t.joint[t.slot[i]] = i;
+  for (const Ball& ball : tree.balls) {
+    const int* slot = &t.slot[ball.joint];
+    t.balls.push_back({{slot[0], slot[1], slot[2]}, ball.velocity, ball.coordinate});
+  }
   set_rows(false, t);
   t.lu_row_blocks = t.row_blocks;
   set_rows(true, t);

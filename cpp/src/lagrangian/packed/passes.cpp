@@ -1,4 +1,5 @@
 // Up passes in lanes: composite quantities of the subtrees and what they make (packed.hpp).
+#include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "saltus/lagrangian/packed.hpp"
@@ -136,6 +137,11 @@ void first_pass(const PackedTree& t, Packed& w) {
   packed::set_inertias(t, w);
   packed::sum_momenta(t, w);
   packed::set_first(t, w);
+}
+
+void arc_pass(const PackedTree& t, double tau, Packed& w) {
+  w.arc = w.first;
+  packed::correct_momenta(t, tau, w);
 }
 
 void scale_pass(const PackedTree& t, double tau, Packed& w) {

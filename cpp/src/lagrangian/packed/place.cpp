@@ -3,7 +3,10 @@
 //   R_i = R_parent X_R Rz(s)     step_i = R_parent X_p + slide s z_i     p_i = p_parent + step_i
 //   S_i = [turn z; p x turn z + slide z]     V_i = V_parent + S_i s'      W_i = V_i x S_i
 //
+// Balls: ball.hpp.
+//
 // p is from the reference point O of the tree, as in kinematics.hpp.
+#include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "lagrangian/packed/turn.hpp"
 #include "saltus/lagrangian/packed.hpp"
@@ -163,14 +166,20 @@ Packed::Packed(const PackedTree& tree) {
   first.resize(n);
   scale.resize(n);
   terms.resize(n);
+  arc.resize(n);
   U_F_G.resize(n);
+  if (tree.balls.empty()) return;
+  ball.resize(n);
+  ball_arc.resize(n);
 }
 
 void set_coordinates(const Tree& tree, const PackedTree& t, const VecRef& q, Packed& w) {
-  for (int i = 0; i < tree.joints() && t.one_to_one; ++i) *at(w.s, t.slot[i]) = q[i];
-  for (int i = 0; i < tree.joints() && !t.one_to_one; ++i) {
-    const Drive& drive = tree.drive[i];
-    *at(w.s, t.slot[i]) = drive.multiplier * q[drive.coordinate] + drive.offset;
+  const bool plain = t.one_to_one && t.balls.empty();
+  for (int i = 0; i < tree.joints() && plain; ++i) *at(w.s, t.slot[i]) = q[i];
+  for (int i = 0; i < tree.joints() && !plain; ++i) *at(w.s, t.slot[i]) = displacement(tree, i, q);
+  for (const PackedBall& ball : t.balls) {
+    double* to = at(w.ball, ball.slot[2]);
+    for (int c = 0; c < 4; ++c) to[c * lanes] = q[ball.coordinate + c];
   }
 }
 
@@ -178,18 +187,23 @@ void set_rates(const Tree& tree, const PackedTree& t, const VecRef& v, Packed& w
   for (int i = 0; i < tree.joints() && t.one_to_one; ++i) *at(w.s_dot, t.slot[i]) = v[i];
   for (int i = 0; i < tree.joints() && !t.one_to_one; ++i) {
     const Drive& drive = tree.drive[i];
-    *at(w.s_dot, t.slot[i]) = drive.multiplier * v[drive.coordinate];
+    *at(w.s_dot, t.slot[i]) = drive.multiplier * v[drive.velocity];
   }
 }
 
 void place(const PackedTree& t, Packed& w) {
   packed::set_turns(t, w);
   packed::turn_frames(t, w);
+  packed::turn_balls(t, w);
   packed::chain_frames(t, w);
   packed::set_screws(t, w);
+  packed::set_ball_screws(t, w);
 }
 
-void move(const PackedTree& t, Packed& w) { packed::set_twists(t, w); }
+void move(const PackedTree& t, Packed& w) {
+  packed::set_twists(t, w);
+  packed::set_ball_twists(t, w);
+}
 
 void copy_pose(const Tree& tree, const PackedTree& t, const Packed& w, int joint, Kinematics& kin) {
   JointMotion& m = kin.joint[joint];

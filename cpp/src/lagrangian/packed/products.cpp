@@ -4,7 +4,10 @@
 //   (L_vq v)_i = S_i.sum F_j v_j                     + U_i.up W_k v_k
 //   (L_qv v)_i = W_i.sum U_j v_j                     + F_i.up S_k v_k
 //   (L_qq v)_i = W_i.sum F_j v_j + S_i.sum G_j v_j   + F_i.up W_k v_k + G_i.up S_k v_k
-#include "lagrangian/packed/lane.hpp"
+//
+// Sums are over the joint and what is below, `up` over what is above. A joint of a ball takes the
+// other two as below, but for (L_qv v)_i, where it takes them and itself as above.
+#include "lagrangian/packed/ball.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
 namespace saltus {
@@ -49,6 +52,33 @@ SALTUS_CLONES void set_products(const PackedTree& t, const Packed& w, PackedProd
   }
 }
 
+SALTUS_CLONES void set_ball_products(const PackedTree& t, const Packed& w, PackedProducts& out) {
+  for (const PackedGroup& g : t.groups) {
+    for_each_ball(g, [&](const BallSlots& s, int l) SALTUS_INLINE_LAMBDA {
+      const double *S_x = at(w.S_W, s.x) + l, *below_x = at(out.below, s.x) + l;
+      const double s_x = *(at(w.s_dot, s.x) + l), s_z = *(at(w.s_dot, s.z) + l);
+      const V6 up_W = load6(at(out.above, s.x) + l, 0) - s_x * load6(S_x, 6);
+      const V6 up_S = load6(at(w.V, s.x) + l, 0) - s_x * load6(S_x, 0);
+      const V6 V = load6(at(w.V, s.z) + l, 0), sum_F = load6(below_x, 6);
+      const V6 sum_U =
+          load6(at(out.below, s.z) + l, 0) - s_z * load6(at(w.U_F_G, s.z) + l, 0);
+      const V3 sum_G = load3(below_x, 12);
+      const auto put = [&](int slot) SALTUS_INLINE_LAMBDA {
+        const double *S_W = at(w.S_W, slot) + l, *U_F_G = at(w.U_F_G, slot) + l;
+        const V6 S = load6(S_W, 0), W = load6(S_W, 6), U = load6(U_F_G, 0), F = load6(U_F_G, 6);
+        double* to = at(out.by_joint, slot) + l;
+        to[0] = dot(S, sum_F) + dot(U, up_W);
+        to[lanes] = dot(W, sum_U) + dot(F, V);
+        to[2 * lanes] = dot(W, sum_F) + dot(S.w, sum_G) + dot(F, up_W) +
+                        dot(load3(U_F_G, 12), up_S.w);
+      };
+      put(s.x);
+      put(s.y);
+      put(s.z);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace packed
 
@@ -62,6 +92,7 @@ PackedProducts::PackedProducts(const PackedTree& tree) {
 void multiply_by_rates(const PackedTree& t, const Packed& w, PackedProducts& out) {
   packed::set_sums(t, w, out);
   packed::set_products(t, w, out);
+  packed::set_ball_products(t, w, out);
 }
 
 }  // namespace saltus

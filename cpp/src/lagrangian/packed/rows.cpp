@@ -1,6 +1,7 @@
 // Theory, section 2: the Hessian of T in (v, q) is X_i^T Y_j, X = [S W], Y = [U F], for i above j.
 #include "saltus/lagrangian/packed_rows.hpp"
 
+#include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/path.hpp"
 
 namespace saltus {
@@ -67,6 +68,26 @@ SALTUS_CLONES void multiply_all(const PackedTree& t, const Packed& w, SecondPart
   }
 }
 
+/// What is below the diagonal within balls: there a joint is above those that the rows have above.
+void set_ball_pairs(const PackedGroup& g, const Packed& w, SecondPartials& out) {
+  for (const int k : g.balls) {
+    for (int lane = 0; lane < g.trees; ++lane) {
+      double* qq = at(out.L_qq_lower, g.slot(k + 2) + lane);
+      int next = 0;
+      for (int j = 1; j < 3; ++j) {
+        const double* X = at(w.S_W, g.slot(k + j) + lane);
+        for (int i = 0; i < j; ++i) {
+          const double* Y = at(w.U_F_G, g.slot(k + i) + lane);
+          const V6 S = load6(X, 0), W = load6(X, 6), F = load6(Y, 6);
+          const long entry = g.row[k + j] * lanes + g.level[k + i] * g.width + lane;
+          out.L_qv[entry / lanes].x[0][entry % lanes] = dot(S, F);
+          qq[lanes * next++] = dot(W, F) + dot(S.w, load3(Y, 12));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace packed
 
@@ -74,10 +95,12 @@ SecondPartials::SecondPartials(const PackedTree& tree) : path(packed::make_path<
   for (PackedRows* rows : {&L_vv, &L_qq, &L_vq, &L_qv}) {
     rows->resize(static_cast<std::size_t>(tree.row_blocks));
   }
+  if (!tree.balls.empty()) L_qq_lower.resize(static_cast<std::size_t>(tree.slots / lanes));
 }
 
 void multiply_pairs(const PackedTree& t, const Packed& w, SecondPartials& out) {
   packed::multiply_all(t, w, out);
+  for (const PackedGroup& g : t.groups) packed::set_ball_pairs(g, w, out);
 }
 
 }  // namespace saltus

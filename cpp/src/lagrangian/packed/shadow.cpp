@@ -114,7 +114,7 @@ SALTUS_CLONES void set_by_joint(const PackedTree& t, const Packed& w, ShadowTerm
 }  // namespace packed
 
 FreeMotion::FreeMotion(const Tree& tree, const PackedTree& packed) : products(packed) {
-  for (VecX* x : {&a, &force, &L_vq_v}) x->setZero(tree.coordinates);
+  for (VecX* x : {&a, &force, &L_vq_v}) x->setZero(tree.n_v);
 }
 
 // a^T M a = a.force; both products are sums over joints, whichever coordinates drive them.
@@ -124,6 +124,14 @@ void free_motion(const Tree& tree, const PackedTree& t, const Packed& w, PackedM
   gather(tree, t, w.first, 1, out.force);
   gather(tree, t, out.products.by_joint, 0, out.L_vq_v);
   out.force -= out.L_vq_v;
+  for (const PackedBall& ball : t.balls) {  // a ball's L_q holds its w, and what turns is its body
+    Vec3 omega, L_v;
+    for (int axis = 0; axis < 3; ++axis) {
+      omega[axis] = *at(w.s_dot, ball.slot[axis]);
+      L_v[axis] = *at(w.first, ball.slot[axis]);
+    }
+    out.force.segment<3>(ball.velocity) += omega.cross(L_v);
+  }
   out.a = out.force;
   solve(tree, t, M, out.a);
   out.kappa = out.a.dot(out.force);
@@ -134,8 +142,8 @@ void free_motion(const Tree& tree, const PackedTree& t, const Packed& w, PackedM
 
 ShadowTerm::ShadowTerm(const Tree& tree, const PackedTree& packed) {
   const std::size_t n = static_cast<std::size_t>(packed.slots / lanes);
-  kappa_q.setZero(tree.coordinates);
-  kappa_v.setZero(tree.coordinates);
+  kappa_q.setZero(tree.n_v);
+  kappa_v.setZero(tree.n_v);
   s_ddot.resize(n);
   motion.resize(n);
   momenta.resize(n);
@@ -146,7 +154,7 @@ void shadow_gradient(const Tree& tree, const PackedTree& t, const Packed& w, con
                      ShadowTerm& out) {
   for (int i = 0; i < tree.joints(); ++i) {
     const Drive& drive = tree.drive[i];
-    *at(out.s_ddot, t.slot[i]) = drive.multiplier * a[drive.coordinate];
+    *at(out.s_ddot, t.slot[i]) = drive.multiplier * a[drive.velocity];
   }
   packed::set_motion(t, w, out);
   packed::set_momenta(t, w, out);
