@@ -17,10 +17,9 @@ LINK = "cube"
 MOST_IMPACTS = 100  # a step: a cube on its table has a few
 
 
-def build(start: Start, values: dict[str, float]) -> saltus.Model:
-    """Return the cube on its table; its joint's frame is the start's pose."""
+def build(values: dict[str, float]) -> saltus.Model:
+    """Return the cube and its table."""
     plane = table(values)
-    at = saltus.Pose(start.pose[:3, 3], start.pose[:3, :3])
     return (
         saltus.ModelBuilder("toss")
         .set_gravity((0, 0, -GRAVITY))
@@ -28,21 +27,18 @@ def build(start: Start, values: dict[str, float]) -> saltus.Model:
         .set_default_contact(restitution=values["restitution"], friction=values["friction"])
         .add_link(LINK, saltus.BodyInertia(MASS, I_J=values["inertia"] * np.eye(3)))
         .add_shape(LINK, saltus.Box((EDGE / 2,) * 3))
-        .add_joint(LINK, saltus.JointType.floating, parent="world", child=LINK, X_PJ=at)
+        .add_joint(LINK, saltus.JointType.floating, parent="world", child=LINK)
         .build()
     )
 
 
 def simulate(start: Start, values: dict[str, float], setting: str) -> np.ndarray:
-    model, steps = build(start, values), STEPS[setting]
-    R = start.pose[:3, :3]
-    # At q = 0 the angles' rates are the spin about z, y, x of the joint's frame.
-    v = np.concatenate([start.velocity @ R, (start.spin @ R)[::-1]])
-    duration = (start.rows - 1) * ROW
+    model, steps = build(values), STEPS[setting]
     run = saltus.simulate(
         model,
-        v=v,
-        duration=duration,
+        q={LINK: saltus.Pose(start.pose[:3, 3], start.pose[:3, :3])},
+        v=np.concatenate([start.velocity, start.spin]),
+        duration=(start.rows - 1) * ROW,
         h=ROW / steps,
         record_every=steps,
         progress=False,
