@@ -144,8 +144,8 @@ def test_turns_come_back(angle):
     axes = RNG.normal(size=(20, 3))
     turns = angle * axes / np.linalg.norm(axes, axis=1, keepdims=True)
     matrices = rotations.from_turns(turns)
-    np.testing.assert_allclose(matrices @ matrices.transpose(0, 2, 1), np.tile(np.eye(3), (20, 1, 1)),
-                               atol=1e-15)  # fmt: skip
+    products = matrices @ matrices.transpose(0, 2, 1)
+    np.testing.assert_allclose(products, np.tile(np.eye(3), (20, 1, 1)), atol=1e-15)
     np.testing.assert_allclose(rotations.to_turns(matrices), turns, atol=1e-12)
 
 

@@ -15,9 +15,9 @@ from tests.bench.tosses.processes import Engine
 def run(tosses: list[Toss], engines: Sequence[Engine], budget: int, every: int, seed: int) -> dict:
     """Return all numbers, ready for JSON; the engines' processes are closed.
 
-    Each engine is fitted twice: from starts as recorded and with the inertia that is given, and from
-    calibrated starts and with the inertia as one more parameter. Fitted for these, it runs from
-    starts by the whole flight too.
+    Each engine is fitted twice: from starts as recorded, with the inertia that is given; and from
+    calibrated starts, with the inertia as one more parameter. Fitted for these, it runs from starts
+    by the whole flight too.
     """
     first_half, to_report = halves(tosses)
     to_fit = first_half[::every]

@@ -34,8 +34,8 @@ def load(folder: Path) -> list[Toss]:
     if not file.is_file():
         raise FileNotFoundError(
             f'no file "{file}": the recorded tosses are no part of saltus. They are those of '
-            "S. Pfrommer, M. Halm, M. Posa, ContactNets, CoRL 2020 (github.com/DAIRLab/contact-nets)"
-            f'; a folder for this program holds them as "{FILE}" with arrays rows, start and toss'
+            "S. Pfrommer, M. Halm and M. Posa, ContactNets, CoRL 2020; a folder for this program "
+            f'holds them as "{FILE}" with the arrays rows, start and toss'
         )
     with np.load(file) as arrays:
         missing = [name for name in ("rows", "start", "toss") if name not in arrays]
@@ -47,7 +47,8 @@ def load(folder: Path) -> list[Toss]:
     if len(start) != len(numbers) + 1 or start[0] != 0 or start[-1] != len(rows):
         raise ValueError(
             f'"{file}": start has {len(start)} entries for {len(numbers)} tosses and ends at '
-            f"{start[-1]} of {len(rows)} rows; it must have one more than there are tosses, from 0 to all"
+            f"{start[-1]} of {len(rows)} rows; it must have one more entry than there are tosses, "
+            "from 0 to all rows"
         )
     pieces = np.split(rows, start[1:-1])
     return [toss(int(number), piece) for number, piece in zip(numbers, pieces, strict=True)]

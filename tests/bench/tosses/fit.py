@@ -1,7 +1,7 @@
 """An engine's parameters from tosses: a search over each of its settings, the best one to the end.
 
-A toss whose error is e counts e / (e + USUAL), so one that fell on another face counts about as much
-as two of usual error, not a hundred; a toss that failed counts 1, the most there is.
+A toss whose error is e counts e / (e + USUAL), so one that fell on another face counts about as
+much as two of usual error, not a hundred; a toss that failed counts 1, the most there is.
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
-"""How near to the recording an exact engine could come: what the starts' errors do, and whether
-engines differ less from each other than from the recording.
+"""How near to the recording an engine could come.
+
+What the errors of the starts do to an engine's own motion, and whether engines differ less from
+each other than from the recording.
 """
 
 from __future__ import annotations
@@ -11,12 +13,14 @@ from itertools import combinations
 import numpy as np
 
 from tests.bench.tosses import measures
-from tests.bench.tosses.flight import Calibration, Noise
 from tests.bench.tosses.fit import Fit
+from tests.bench.tosses.flight import Calibration, Noise
 from tests.bench.tosses.processes import Engine
 
 
-def poses(engine: Engine, tosses: Sequence[int], fit: Fit, calibration: Calibration, **more) -> list:
+def poses(
+    engine: Engine, tosses: Sequence[int], fit: Fit, calibration: Calibration, **more
+) -> list:
     """Return an engine's motions, poses (rows, 4, 4) or None where it failed."""
     answer = engine.run(tosses, fit.values, fit.setting, calibration, poses=True, **more)
     return [None if found is None else whole(np.array(found)) for found in answer["poses"]]

@@ -48,6 +48,4 @@ def summary(errors: list[tuple[float, float] | None]) -> Summary:
     every = np.vstack([ran, np.full((failed, 2), np.inf)])
     means = ran.mean(axis=0) if len(ran) else (np.nan, np.nan)
     medians = np.median(every, axis=0) if len(every) else (np.nan, np.nan)
-    return Summary(
-        len(errors), failed, *map(float, (means[0], medians[0], means[1], medians[1]))
-    )
+    return Summary(len(errors), failed, *map(float, (means[0], medians[0], means[1], medians[1])))

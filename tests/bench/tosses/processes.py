@@ -6,6 +6,7 @@ import importlib.util
 import json
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -29,8 +30,10 @@ class Engine:
         self.module, self.cpu = module, 0.0
         command = [sys.executable, "-m", "tests.bench.tosses.engines", module, str(folder)]
         pipe = subprocess.PIPE
+        # Not a pipe: one that nobody reads would fill and block the engine.
+        self.said = tempfile.TemporaryFile()  # noqa: SIM115
         self.process = subprocess.Popen(
-            command, cwd=ROOT, stdin=pipe, stdout=pipe, stderr=pipe, text=True
+            command, cwd=ROOT, stdin=pipe, stdout=pipe, stderr=self.said, text=True
         )
         about = self._answer()
         self.name, self.version = about["name"], about["version"]
@@ -57,7 +60,10 @@ class Engine:
     def _answer(self) -> dict:
         line = self.process.stdout.readline()
         if not line:
-            last = (self.process.stderr.read().strip().splitlines() or ["it wrote nothing"])[-1]
+            self.process.wait()
+            self.said.seek(0)
+            lines = self.said.read().decode(errors="replace").strip().splitlines()
+            last = (lines or ["it wrote nothing"])[-1]
             raise RuntimeError(f"the process of {self.module} ended: {last}")
         return json.loads(line)
 
@@ -65,7 +71,7 @@ class Engine:
         self.process.stdin.close()
         self.process.wait(timeout=60)
         self.process.stdout.close()
-        self.process.stderr.close()
+        self.said.close()
 
 
 def present(folder: Path, wanted: Sequence[str] = tuple(ENGINES)) -> tuple[list[Engine], list[str]]:

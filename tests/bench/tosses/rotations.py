@@ -42,4 +42,6 @@ def to_turns(matrices: np.ndarray) -> np.ndarray:
     quaternions *= np.where(quaternions[:, :1] < 0, -1, 1)
     sines = np.linalg.norm(quaternions[:, 1:], axis=1, keepdims=True)
     angles = 2 * np.arctan2(sines, quaternions[:, :1])
-    return quaternions[:, 1:] * np.divide(angles, sines, out=np.full_like(sines, 2), where=sines > 0)
+    return quaternions[:, 1:] * np.divide(
+        angles, sines, out=np.full_like(sines, 2), where=sines > 0
+    )

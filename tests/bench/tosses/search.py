@@ -1,9 +1,9 @@
 """A search without derivatives: the covariance matrix adaptation of Hansen and Ostermeier.
 
-N. Hansen, "The CMA Evolution Strategy: A Tutorial", arXiv 1604.00772, equations 5 to 46 and table 1
-without its negative weights. Points are drawn from a normal distribution (mean m, deviation sigma,
-covariance C), whose mean and C move towards the better half of them. What is minimised may be rough,
-as errors of chaotic motions are: only the order of values counts.
+N. Hansen, "The CMA Evolution Strategy: A Tutorial", arXiv 1604.00772, section 4, without its
+negative weights. Points are drawn from a normal distribution (mean m, deviation sigma, covariance
+C), whose mean and C move towards the better half of them. What is minimised may be rough, as errors
+of chaotic motions are: only the order of values counts.
 """
 
 from __future__ import annotations

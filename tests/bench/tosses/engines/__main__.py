@@ -1,4 +1,4 @@
-"""python -m tests.bench.tosses.engines NAME FOLDER: jobs come in as lines of JSON, errors go out."""
+"""python -m tests.bench.tosses.engines NAME FOLDER: jobs are lines of JSON, answers too."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ def simulate(start: Start, values: dict[str, float], setting: str) -> np.ndarray
     inside = plant.GetMyMutableContextFromRoot(context)
     R = RotationMatrix.ProjectToRotationMatrix(M=start.pose[:3, :3])
     plant.SetFreeBodyPose(inside, body, RigidTransform(R, start.pose[:3, 3]))
-    v = start.velocity + (0, 0, GRAVITY * ROW / STEPS / 2)  # steps are semi-implicit
+    v = start.velocity + np.array([0, 0, GRAVITY * ROW / STEPS / 2])  # steps are semi-implicit
     plant.SetFreeBodySpatialVelocity(inside, body, SpatialVelocity(start.spin, v))
     simulation.Initialize()
     poses = np.empty((start.rows, 4, 4))

@@ -56,7 +56,7 @@ def simulate(start: Start, values: dict[str, float], setting: str) -> np.ndarray
     data = mujoco.MjData(model)
     R = start.pose[:3, :3]
     data.qpos[:] = np.concatenate([start.pose[:3, 3], quaternion(R)])
-    data.qvel[:3] = start.velocity + (0, 0, GRAVITY * step / 2)  # steps are semi-implicit
+    data.qvel[:3] = start.velocity + np.array([0, 0, GRAVITY * step / 2])  # steps are semi-implicit
     data.qvel[3:] = start.spin @ R  # body axes
     poses = np.tile(np.eye(4), (start.rows, 1, 1))
     for pose in poses:

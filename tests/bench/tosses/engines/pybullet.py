@@ -41,9 +41,7 @@ def world(values: dict[str, float], step: float) -> int:
         deterministicOverlappingPairs=1,
     )
     plane = table(values)
-    floor = pybullet.createCollisionShape(
-        pybullet.GEOM_PLANE, planeNormal=plane.normal.tolist()
-    )
+    floor = pybullet.createCollisionShape(pybullet.GEOM_PLANE, planeNormal=plane.normal.tolist())
     ground = pybullet.createMultiBody(0, floor, basePosition=plane.normal * plane.offset)
     # Its materials are multiplied with the cube's.
     pybullet.changeDynamics(ground, -1, lateralFriction=1.0, restitution=1.0)
@@ -70,7 +68,7 @@ def simulate(start: Start, values: dict[str, float], setting: str) -> np.ndarray
     cube = world(values, step)
     w, x, y, z = quaternion(start.pose[:3, :3])
     pybullet.resetBasePositionAndOrientation(cube, start.pose[:3, 3], (x, y, z, w))
-    v = start.velocity + (0, 0, GRAVITY * step / 2)  # steps are semi-implicit
+    v = start.velocity + np.array([0, 0, GRAVITY * step / 2])  # steps are semi-implicit
     pybullet.resetBaseVelocity(cube, v, start.spin)
     poses = np.tile(np.eye(4), (start.rows, 1, 1))
     for pose in poses:
