@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 
+import numpy as np
 from tqdm import tqdm
 
 from tests.bench.tosses import fit, flight, limits
@@ -52,6 +53,7 @@ def run(tosses: list[Toss], engines: Sequence[Engine], budget: int, every: int, 
         "seed": seed,
         "calibration": asdict(calibrated),
         "noise": asdict(noise),
+        "resting_height": float(np.median([tosses[i].poses[-1, 2, 3] for i in first_half])),  # [m]
         "engines": rows,
         "pairs": limits.pairs(engines, to_report, found, from_flight),
     }

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tests.bench.table import bullets, grid
 from tests.bench.tosses import measures, picture
-from tests.bench.tosses.data import ROW
+from tests.bench.tosses.data import EDGE, GRAVITY, ROW
 
 TEMPLATE = Path(__file__).with_name("page.md")
 STARTS = ("recorded", "calibrated", "flight")
@@ -54,7 +54,10 @@ def calibration(results: dict) -> str:
     found, noise = results["calibration"], results["noise"]
     return bullets(
         [
-            f"lengths: a metre is recorded as {found['scale']:.4f} m",
+            f"lengths: a metre is recorded as {found['scale']:.4f} m "
+            f"(g is {found['scale'] * GRAVITY:.3f} m/s²)",
+            f"at rest the centre is at {1e3 * results['resting_height']:.1f} mm, "
+            f"{results['resting_height'] / (EDGE / 2):.3f} of half an edge",
             f"velocities: those of {1e3 * found['delay']:.2f} ms before their row "
             f"({found['delay'] / ROW:.2f} of a row)",
             f"spin of the first row: {found['spin']:.3f} of that of the flight",
