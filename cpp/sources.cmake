@@ -66,12 +66,16 @@ set(SALTUS_SOURCES
   cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
+  cpp/src/model/merge.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
   cpp/src/model/pairs.cpp
+  cpp/src/model/scene.cpp
   cpp/src/model/shape_checks.cpp
+  cpp/src/model/solids.cpp
   cpp/src/model/topology.cpp
+  cpp/src/model/unsaid.cpp
   # variational
   cpp/src/variational/arc.cpp
   cpp/src/variational/arc_constraints.cpp
@@ -148,6 +152,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_lagrangian.cpp
   # collision
   python/bindings/bind_collision.cpp
+  python/bindings/bind_configuration.cpp
   # model
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp

@@ -22,9 +22,9 @@ stepper = saltus.Stepper(model, h=0.01)
 stepper.advance(model.state())
 contacts = stepper.report.contacts
 for name in ("floor", "box_3"):
-    force = sum(c.normal for c in contacts if name in c.pair) / stepper.options.h
+    force = sum(c.impulse for c in contacts if name in c.pair) / stepper.options.h
     print(f"the contacts of {name} bear {force:.3f} N")
 
-run = saltus.simulate(model, v={"box_0_x": 0.5}, duration=1.0, h=0.01)
+run = saltus.simulate(model, v={"box_0_vx": 0.5}, duration=1.0, h=0.01)
 print(f"energy lost: {run.total[0] - run.total[-1]:.3f} J")
 print(f"the fastest box at the end moves with less than 1e-9 m/s: {abs(run.v[-1]).max() < 1e-9}")

@@ -54,9 +54,17 @@ PyObject* dispatch(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
   return nullptr;
 }
 
+/// What a member calls: methods and static methods of a class wrap it.
+py::object function_of(const py::handle& member) {
+  if (PyInstanceMethod_Check(member.ptr())) {
+    return py::reinterpret_borrow<py::object>(PyInstanceMethod_Function(member.ptr()));
+  }
+  if (Py_TYPE(member.ptr()) == &PyStaticMethod_Type) return member.attr("__func__");
+  return py::reinterpret_borrow<py::object>(member);
+}
+
 void explain_errors_of(const py::handle& member) {
-  const bool in_class = PyInstanceMethod_Check(member.ptr());
-  const py::handle function = in_class ? PyInstanceMethod_Function(member.ptr()) : member.ptr();
+  const py::object function = function_of(member);
   if (!PyCFunction_CheckExact(function.ptr())) return;
   PyMethodDef* const method = method_of(function);
   if (to_method(method->ml_meth) != dispatcher) return;

@@ -21,16 +21,16 @@ double to_number(const py::handle& x, const std::string& what) {
 
 /// Which numbers of q or v a user may name, and by what.
 struct Numbers {
-  std::string kind;                ///< "coordinate" or "velocity"
+  std::string kind, plural;        ///< "coordinate" or "velocity"
   std::vector<std::string> names;  ///< of the numbers
   std::vector<int> JointInfo::* of_joint;
 };
 
 Numbers numbers_of_q(const Model& model) {
-  return {"coordinate", names_of(model->coordinates), &JointInfo::coordinates};
+  return {"coordinate", "coordinates", names_of(model->coordinates), &JointInfo::coordinates};
 }
 Numbers numbers_of_v(const Model& model) {
-  return {"velocity", model->velocity_names, &JointInfo::velocities};
+  return {"velocity", "velocities", model->velocity_names, &JointInfo::velocities};
 }
 
 /// Numbers in a sequence, of sequences or not: (position, quaternion) is seven.
@@ -114,8 +114,8 @@ VecX from_mapping(const py::object& x, const Model& model, const std::string& wh
   for (const py::handle item : x.attr("items")()) {
     const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
     if (!py::isinstance<py::str>(key)) {
-      throw ModelError(what + " has the key " + show(key) + "; keys are names: " +
-                       list_names(numbers.names));
+      throw ModelError(what + " has the key " + show(key) + "; keys are names of " +
+                       numbers.plural + ": " + list_names(numbers.names));
     }
     set_entry(key.cast<std::string>(), value, what, numbers, model, out, is_set);
   }

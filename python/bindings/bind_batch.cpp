@@ -41,23 +41,22 @@ constexpr auto simulate_batch_doc = R"(Runs round(duration / h) steps from every
 
 Parameters
 ----------
-model : Model
+batch : BatchTrajectory
+    Is written: all runs, also where one raises an error; none where numbers make no run. Runs that
+    Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
 starts : list of State
 duration : float
     [s] a whole number of steps.
 options : StepOptions
 record_every : int
     Steps between recorded rows.
+record_contacts : bool
+    Whether to fill `contacts` of each run.
 threads : int
     0: as many as the machine runs at once. The bits do not depend on it.
 on_failure : OnFailure
 progress : callable, optional
     Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-Returns
--------
-BatchTrajectory
-    Runs that Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
 
 Raises
 ------
@@ -67,31 +66,28 @@ StepError, JammedError, ModelError
     With OnFailure.stop, the error of the first run, by index, that fails.
 )";
 
-BatchTrajectory run(const Model& model, const std::vector<State>& starts, double duration,
-                    const StepOptions& step, int record_every, int threads, OnFailure on_failure,
-                    const std::optional<Progress>& progress) {
+void run(BatchTrajectory& out, const std::vector<State>& starts, double duration,
+         const StepOptions& step, int record_every, bool record_contacts, int threads,
+         OnFailure on_failure, const std::optional<Progress>& progress) {
   BatchOptions options;
   options.run.h = step.h;
   options.run.law = step.law;
   options.run.collisions = step.collisions;
   options.run.record_every = record_every;
+  options.run.record_contacts = record_contacts;
   options.run.step = step;
   options.run.progress = asking_python(progress);
   options.threads = threads;
   options.on_failure = on_failure;
+  const Model model = out.model;
   const py::gil_scoped_release release;
-  return simulate_batch(model, starts, duration, options);
+  simulate_batch(model, starts, duration, options, out);
 }
 
 std::vector<State> make_states(const Model& model, const Eigen::Ref<const MatX>& q,
                                const Eigen::Ref<const MatX>& v) {
   const py::gil_scoped_release release;
   return states(model, q, v);
-}
-
-py::object read_only(py::array array) {
-  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return array;
 }
 
 /// (runs * rows, n) as (runs, rows, n), without a copy.
@@ -115,6 +111,9 @@ auto each(Get get) {
 void bind_batch_trajectory(py::module_& m) {
   using B = BatchTrajectory;
   py::class_<B>(m, "BatchTrajectory", batch_doc)
+      .def(
+          py::init([](const Model& model) { return B{model, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }),
+          "Of no runs; `simulate_batch` writes to it.", py::arg("model"))
       .def_readonly("model", &B::model)
       .def_readonly("options", &B::options)
       .def_readonly("t", &B::t, "[s] shape (rows,)")
@@ -148,9 +147,9 @@ void bind_batch(py::module_& m) {
       .finalize();
   bind_batch_trajectory(m);
   m.def("states", &make_states, states_doc, py::arg("model"), py::arg("q"), py::arg("v"));
-  m.def("simulate_batch", &run, simulate_batch_doc, py::arg("model"), py::arg("starts"),
+  m.def("simulate_batch", &run, simulate_batch_doc, py::arg("batch"), py::arg("starts"),
         py::arg("duration"), py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
-        py::arg("record_every") = 1, py::arg("threads") = 0,
+        py::arg("record_every") = 1, py::arg("record_contacts") = false, py::arg("threads") = 0,
         py::arg_v("on_failure", OnFailure::go_on, "OnFailure.go_on"),
         py::arg("progress") = py::none());
 }

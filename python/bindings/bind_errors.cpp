@@ -17,6 +17,8 @@ element : str
     Kind of the culprit where it has a name ("link", "joint", "coordinate"), else "".
 name : str
     Its name, else "".
+trajectory : Trajectory or None
+    The rows before it, where it ended a run of `simulate`.
 )";
 
 constexpr auto step_error_doc =
@@ -30,6 +32,8 @@ residual : float
     [largest momentum] scaled residual when the solver gave up.
 iterations : int
     Newton iterations, arcs or impulses spent.
+trajectory : Trajectory or None
+    The rows before it, where it ended a run of `simulate`.
 )";
 
 constexpr auto jammed_error_doc =
@@ -91,10 +95,12 @@ void bind_errors(py::module_& m) {
   const py::object& model = make_class(model_error, m, "ModelError", model_error_doc, value_error);
   model.attr("element") = "";
   model.attr("name") = "";
+  model.attr("trajectory") = py::none();
   const py::object& step = make_class(step_error, m, "StepError", step_error_doc, runtime_error);
   step.attr("t") = std::numeric_limits<double>::quiet_NaN();
   step.attr("residual") = std::numeric_limits<double>::quiet_NaN();
   step.attr("iterations") = 0;
+  step.attr("trajectory") = py::none();
   make_class(jammed_error, m, "JammedError", jammed_error_doc, step);
   py::register_local_exception_translator(&translate);
 }

@@ -161,6 +161,9 @@ void bind_lists(py::class_<Model>& c) {
       .def("pair_name", &Model::pair_name, py::arg("pair"), "Its name.")
       .def("contact_properties", &Model::contact_properties, py::arg("pair"),
            "ContactProperties of the materials that meet in the pair of this number.")
+      .def_property_readonly(
+          "default_contact", [](const Model& m) { return m->description->materials.standard; },
+          "ContactProperties of all pairs that nothing else is said of; None where nothing is said")
       .def("pair_kinds", &Model::pair_kinds,
            "How many pairs there are of each two kinds of shape, by their names in alphabetical "
            "order.")
@@ -183,19 +186,34 @@ void bind_lists(py::class_<Model>& c) {
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.
 
-Attributes
+Parameters
 ----------
 restitution : float
     e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
 friction : float
     Coulomb's mu >= 0.
+
+Raises
+------
+ModelError
+    On values out of their range.
 )";
 
 void bind_contact_properties(py::module_& m) {
   using P = ContactProperties;
   py::class_<P>(m, "ContactProperties", contact_properties_doc)
+      .def(py::init([](double restitution, double friction) {
+             const P properties{restitution, friction};
+             check_properties(properties, "two bodies");
+             return properties;
+           }),
+           py::kw_only(), py::arg("restitution") = P{}.restitution,
+           py::arg("friction") = P{}.friction)
       .def_readonly("restitution", &P::restitution)
       .def_readonly("friction", &P::friction)
+      .def(
+          "__eq__", [](const P& a, const P& b) { return a == b; }, py::arg("other"),
+          py::is_operator())
       .def("__repr__",
            [](const P& p) {
              return "ContactProperties(restitution=" +
@@ -218,38 +236,6 @@ void bind_copies(py::class_<Model>& c) {
             const Model whole = ModelBuilder(to_description(t[0])).build();
             return t[1].cast<bool>() ? whole : whole.without_collisions();
           }));
-}
-
-/// A 64-bit seed from a number, a NumPy Generator, or nothing.
-std::uint64_t to_seed(const py::object& random) {
-  const py::object generator =
-      py::module_::import("numpy").attr("random").attr("default_rng")(random);
-  const auto below = static_cast<std::int64_t>(0x7fffffffffffffff);
-  return generator.attr("integers")(below).cast<std::uint64_t>();
-}
-
-void bind_configurations(py::class_<Model>& c) {
-  c.def("neutral", &Model::neutral, docs::model_neutral)
-      .def(
-          "integrate",
-          [](const Model& model, const Coordinates& q, const Velocities& dv) {
-            return model.integrate(to_vector(q, model), to_vector(dv, model, "dv"));
-          },
-          docs::model_integrate, py::arg("q"), py::arg("dv"))
-      .def(
-          "difference",
-          [](const Model& model, const Coordinates& q0, const Coordinates& q1) {
-            return model.difference(to_vector(q0, model, "q0"), to_vector(q1, model, "q1"));
-          },
-          docs::model_difference, py::arg("q0"), py::arg("q1"))
-      .def("normalized", &Model::normalized, docs::model_normalized, py::arg("q"))
-      .def(
-          "random_configuration",
-          [](const Model& model, const py::object& random) {
-            std::mt19937_64 bits(to_seed(random));
-            return model.random_configuration(bits);
-          },
-          docs::model_random, py::arg("random") = py::none());
 }
 
 }  // namespace
@@ -285,9 +271,7 @@ void bind_model(py::module_& m) {
           docs::model_mass_matrix, py::arg("q"))
       .def(
           "gaps",
-          [](const Model& model, const Coordinates& q) {
-            return model.gaps(to_vector(q, model));
-          },
+          [](const Model& model, const Coordinates& q) { return model.gaps(to_vector(q, model)); },
           docs::model_gaps, py::arg("q"))
       .def("kinetic_energy", &Model::kinetic_energy, "[J] at this state.", py::arg("state"))
       .def(
@@ -299,8 +283,7 @@ void bind_model(py::module_& m) {
       .def(
           "pose",
           [](const Model& model, const Coordinates& q, const NameOrIndex& link) {
-            return model.X_WL(to_vector(q, model),
-                              to_index(link, names_of(model->links), "link"));
+            return model.X_WL(to_vector(q, model), to_index(link, names_of(model->links), "link"));
           },
           docs::model_pose, py::arg("q"), py::arg("link"));
 }

@@ -5,6 +5,7 @@
 #include "model_builder_docs.hpp"
 #include "pickle.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "scene_docs.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -29,6 +30,57 @@ void bind_add_joint(py::class_<ModelBuilder>& c) {
         py::arg_v("lower", -infinity, "-math.inf"), py::arg_v("upper", infinity, "math.inf"),
         py::arg_v("velocity", infinity, "math.inf"), py::arg_v("effort", infinity, "math.inf"),
         py::arg("damping") = 0.0, py::arg("friction") = 0.0);
+}
+
+ModelBuilder& add_body(ModelBuilder& builder, const std::string& name, const Shape& shape,
+                       const std::optional<double>& mass, const std::optional<double>& density,
+                       const Pose& X, const Unchecked<JointType>& joint,
+                       const std::optional<std::string>& parent,
+                       const std::optional<std::string>& joint_name, const Vec3& axis) {
+  return builder.add_body({name, shape, mass, density, X, to_enum(joint, "joint"),
+                           joint_name.value_or(""), parent.value_or(""), axis});
+}
+
+ModelBuilder& add_floor(ModelBuilder& builder, const std::string& name, const Vec3& normal,
+                        double offset, const std::optional<double>& restitution,
+                        const std::optional<double>& friction,
+                        const std::optional<std::string>& material) {
+  FloorSpec floor{name, normal, offset, {}, material.value_or("")};
+  if (restitution || friction) floor.contact = {restitution.value_or(0), friction.value_or(0)};
+  return builder.add_floor(floor);
+}
+
+ModelBuilder& add(ModelBuilder& builder, const std::variant<ModelBuilder, Model>& other,
+                  const std::string& prefix, const std::optional<std::string>& parent,
+                  const Pose& X, bool own_materials) {
+  const auto* model = std::get_if<Model>(&other);
+  return builder.add(model ? *(*model)->description : std::get<ModelBuilder>(other).description(),
+                     {prefix, parent.value_or(""), X, own_materials});
+}
+
+void bind_scenes(py::class_<ModelBuilder>& c) {
+  c.def("add_body", &add_body, self, docs::add_body, py::arg("name"), py::arg("shape"),
+        py::kw_only(), py::arg("mass") = py::none(), py::arg("density") = py::none(),
+        py::arg_v("X", Pose{}, "Pose()"),
+        py::arg_v("joint", JointType::floating, "JointType.floating"),
+        py::arg("parent") = py::none(), py::arg("joint_name") = py::none(),
+        py::arg_v("axis", Vec3(Vec3::UnitX()), "(1, 0, 0)"))
+      .def("add_floor", &add_floor, self, docs::add_floor, py::arg("name") = FloorSpec{}.name,
+           py::kw_only(), py::arg_v("normal", FloorSpec{}.normal, "(0, 0, 1)"),
+           py::arg("offset") = 0.0, py::arg("restitution") = py::none(),
+           py::arg("friction") = py::none(), py::arg("material") = py::none())
+      .def("add", &add, self, docs::add, py::arg("other"), py::arg("prefix") = "", py::kw_only(),
+           py::arg("parent") = py::none(), py::arg_v("X", Pose{}, "Pose()"),
+           py::arg("own_materials") = false);
+}
+
+/// Checks, freezes, and says aloud what the model warns of.
+Model build(const ModelBuilder& builder) {
+  Model model = builder.build();
+  if (!model->warnings.empty()) {
+    py::module_::import("saltus.urdf").attr("issue_warnings")(model->warnings);
+  }
+  return model;
 }
 
 void bind_materials(py::class_<ModelBuilder>& c) {
@@ -72,10 +124,14 @@ void bind_model_builder(py::module_& m) {
       .value("watched", AdjacentLinks::watched)
       .finalize();
 
+  m.def("solid_inertia", &solid_inertia, docs::solid_inertia, py::arg("mass"), py::arg("shape"));
+  m.def("volume", &volume, docs::volume, py::arg("shape"));
+
   py::class_<ModelBuilder> c(m, "ModelBuilder", docs::model_builder);
   c.def(py::init<std::string, std::string>(), py::arg("name") = "model", py::arg("root") = "world");
   bind_add_joint(c);
   bind_materials(c);
+  bind_scenes(c);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",
@@ -111,7 +167,7 @@ void bind_model_builder(py::module_& m) {
            "Adds to the model's `warnings`; returns the builder.", py::arg("text"))
       .def_property_readonly("warnings", &ModelBuilder::warnings)
       .def("check", &ModelBuilder::check, "The checks of `build` alone; raises ModelError.")
-      .def("build", &ModelBuilder::build, docs::build)
+      .def("build", &build, docs::build)
       .def("__repr__", [](const ModelBuilder&) { return "ModelBuilder(...)"; });
 }
 

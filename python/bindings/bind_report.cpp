@@ -1,4 +1,6 @@
 // Variational floor: what happened in a step.
+#include <limits>
+
 #include "named_report.hpp"
 
 namespace saltus::bindings {
@@ -16,6 +18,12 @@ lambdas : numpy.ndarray, shape (impulses,)
     [N s] the impulses, `p += lambda * phi_q`.
 tangentials : numpy.ndarray, shape (impulses, 3)
     [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+points : numpy.ndarray, shape (impulses, 3)
+    [m] where each impulse acts, in the world: halfway between the nearest points of the two shapes.
+    NaN where that is not known: in runs from files of before there were points.
+normals : numpy.ndarray, shape (impulses, 3)
+    Unit normal of each contact, in the world, from the pair's second shape to the first, on which
+    `lambda * normal + tangential` acts. NaN as `points`.
 contacts : int
     Pairs that touched.
 law : ImpactLaw
@@ -46,43 +54,53 @@ impacts : list of Impact
 settlings : list of (float, str)
     Time [s] and name of each pair that bounced ever lower and has come to rest.
 contacts : list of ContactImpulse
-    What held pairs closed over the step, impacts left aside.
+    What held pairs closed over the step, a pair once, impacts left aside.
 )";
 
 constexpr auto contact_doc =
-    R"(What held a pair closed over a step: its impulses, but for those of impacts.
+    R"(What held a pair closed over a step: the sum of its impulses, but for those of impacts.
 
-Divided by the step `h` these are its mean forces.
+On the pair's first shape acts `impulse * normal + tangential`, at `point`; on the second the
+opposite. Divided by the step `h` these are mean forces. The impulses that are summed act where the
+contact is at the start of each arc of the step, and at its end: `point` and `normal` are the mean
+of these, weighted by the impulses. Where a body slides on a plane the sum has the moment of its
+parts.
 
 Attributes
 ----------
 pair : str
     Name of the pair.
-normal : float
+impulse : float
     [N s] along the normal, >= 0.
 tangential : numpy.ndarray, shape (3,)
-    [N s] friction on the pair's first shape, in the world; 0 without friction.
+    [N s] friction, across the normal, in the world; 0 without friction.
+point : numpy.ndarray, shape (3,)
+    [m] in the world, halfway between the nearest points of the two shapes.
+normal : numpy.ndarray, shape (3,)
+    Unit normal in the world, from the pair's second shape to the first.
 )";
 
 NamedImpact with_names(const Model& model, const StepReport& report, const Impact& impact) {
-  NamedImpact out{impact.t,        {},         VecX(impact.count), MatX::Zero(impact.count, 3),
-                  impact.contacts, impact.law, impact.fallback,    ""};
+  const Eigen::Index n = impact.count;
+  NamedImpact out{impact.t,        {},         VecX(n),         MatX(n, 3), MatX(n, 3), MatX(n, 3),
+                  impact.contacts, impact.law, impact.fallback, ""};
   for (int i = 0; i < impact.count; ++i) {
-    const Impulse& impulse = report.impulses[impact.first + i];
+    const ContactImpulse& impulse = report.impulses[impact.first + i];
     out.pairs.push_back(model.pair_name(impulse.pair));
     out.lambdas[i] = impulse.lambda;
-  }
-  for (const TangentialImpulse& each : report.friction) {
-    const int i = each.impulse - impact.first;
-    if (i >= 0 && i < impact.count) out.tangentials.row(i) = each.p_W;
+    out.tangentials.row(i) = impulse.p_W;
+    out.points.row(i) = impulse.point_W;
+    out.normals.row(i) = impulse.n_W;
   }
   return out;
 }
 
-MatX to_tangentials(const std::optional<MatX>& given, Eigen::Index impulses) {
-  if (!given) return MatX::Zero(impulses, 3);
+/// What is given of three numbers for each impulse, else `unknown`.
+MatX to_rows(const std::optional<MatX>& given, Eigen::Index impulses, double unknown,
+             const std::string& what) {
+  if (!given) return MatX::Constant(impulses, 3, unknown);
   if (given->rows() == impulses && given->cols() == 3) return *given;
-  throw ModelError("tangentials is (" + std::to_string(given->rows()) + ", " +
+  throw ModelError(what + " is (" + std::to_string(given->rows()) + ", " +
                    std::to_string(given->cols()) + "); there are " + std::to_string(impulses) +
                    " impulses, three numbers each");
 }
@@ -92,19 +110,31 @@ void bind_impact(py::module_& m) {
   py::class_<I>(m, "Impact", impact_doc)
       .def(py::init([](double t, std::vector<std::string> pairs, const VecX& lambdas, int contacts,
                        ImpactLaw law, bool fallback, const std::string& certificate,
-                       const std::optional<MatX>& tangentials) {
-             return I{t,        std::move(pairs),
-                      lambdas,  to_tangentials(tangentials, lambdas.size()),
-                      contacts, law,
-                      fallback, certificate};
+                       const std::optional<MatX>& tangentials, const std::optional<MatX>& points,
+                       const std::optional<MatX>& normals) {
+             const Eigen::Index n = lambdas.size();
+             const double nan = std::numeric_limits<double>::quiet_NaN();
+             return I{t,
+                      std::move(pairs),
+                      lambdas,
+                      to_rows(tangentials, n, 0, "tangentials"),
+                      to_rows(points, n, nan, "points"),
+                      to_rows(normals, n, nan, "normals"),
+                      contacts,
+                      law,
+                      fallback,
+                      certificate};
            }),
            py::arg("t"), py::arg("pairs"), py::arg("lambdas"), py::kw_only(), py::arg("contacts"),
            py::arg("law"), py::arg("fallback"), py::arg("certificate") = "",
-           py::arg("tangentials") = std::nullopt)
+           py::arg("tangentials") = std::nullopt, py::arg("points") = std::nullopt,
+           py::arg("normals") = std::nullopt)
       .def_readonly("t", &I::t)
       .def_readonly("pairs", &I::pairs)
       .def_readonly("lambdas", &I::lambdas)
       .def_readonly("tangentials", &I::tangentials)
+      .def_readonly("points", &I::points)
+      .def_readonly("normals", &I::normals)
       .def_readonly("contacts", &I::contacts)
       .def_readonly("law", &I::law)
       .def_readonly("fallback", &I::fallback)
@@ -121,13 +151,18 @@ void bind_contact(py::module_& m) {
   using C = NamedContact;
   py::class_<C>(m, "ContactImpulse", contact_doc)
       .def_readonly("pair", &C::pair)
-      .def_readonly("normal", &C::normal)
+      .def_readonly("impulse", &C::impulse)
       .def_readonly("tangential", &C::tangential)
+      .def_readonly("point", &C::point)
+      .def_readonly("normal", &C::normal)
       .def("__repr__", [](const C& self) {
+        const auto listed = [](const Vec3& x) {
+          return py::str(py::cast(x).attr("tolist")()).cast<std::string>();
+        };
         return "ContactImpulse(pair=" + py::repr(py::cast(self.pair)).cast<std::string>() +
-               ", normal=" + py::repr(py::float_(self.normal)).cast<std::string>() +
-               ", tangential=" +
-               py::str(py::cast(self.tangential).attr("tolist")()).cast<std::string>() + ")";
+               ", impulse=" + py::repr(py::float_(self.impulse)).cast<std::string>() +
+               ", tangential=" + listed(self.tangential) + ", point=" + listed(self.point) +
+               ", normal=" + listed(self.normal) + ")";
       });
 }
 
@@ -163,7 +198,8 @@ NamedReport with_names(const Model& model, const StepReport& r) {
     out.settlings.emplace_back(each.t, model.pair_name(each.pair));
   }
   for (const ContactImpulse& each : r.contacts) {
-    out.contacts.push_back({model.pair_name(each.pair), each.lambda, each.p_W});
+    out.contacts.push_back(
+        {model.pair_name(each.pair), each.lambda, each.p_W, each.point_W, each.n_W});
   }
   return out;
 }

@@ -13,26 +13,25 @@ constexpr auto simulate_doc = R"(Runs round(duration / h) steps from `start`; ro
 
 Parameters
 ----------
-model : Model
+run : Trajectory
+    Is written: all rows, those before the step where it raises an error or Ctrl-C
+    (KeyboardInterrupt) stops it, none where numbers make no run. Not `complete` where rows lack.
 start : State
 duration : float
     [s] a whole number of steps.
 options : StepOptions
 record_every : int
     Steps between recorded rows.
+record_contacts : bool
+    Whether to fill `contacts`.
 progress : callable, optional
     Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-Returns
--------
-Trajectory
-    Not `complete` where Ctrl-C (KeyboardInterrupt) stopped it.
 
 Raises
 ------
 ModelError
     On a duration or h that is not positive, a duration that is no whole number of steps, a start
-    that does not fit the model or overlaps.
+    that does not fit the model or overlaps, more than 16 GB.
 StepError, JammedError
     As `Stepper.advance`.
 )";
@@ -53,17 +52,19 @@ Returns
 Energies
 )";
 
-Trajectory run(const Model& model, const State& start, double duration, const StepOptions& step,
-               int record_every, const std::optional<Progress>& progress) {
+void run(Trajectory& out, const State& start, double duration, const StepOptions& step,
+         int record_every, bool record_contacts, const std::optional<Progress>& progress) {
   SimulateOptions options;
   options.h = step.h;
   options.law = step.law;
   options.collisions = step.collisions;
   options.record_every = record_every;
+  options.record_contacts = record_contacts;
   options.step = step;
   options.progress = asking_python(progress);
+  const Model model = out.model;
   const py::gil_scoped_release release;
-  return simulate(model, start, duration, options);
+  simulate(model, start, duration, options, out);
 }
 
 template <auto field>
@@ -71,16 +72,60 @@ py::object rows(const py::object& self) {
   return view(self.cast<const Trajectory&>().*field, self);
 }
 
-/// Friction of all impulses, 0 where they had none.
-MatX tangentials(const Trajectory& run) {
-  MatX out = MatX::Zero(static_cast<Eigen::Index>(run.impulses.size()), 3);
-  for (const TangentialImpulse& each : run.friction) out.row(each.impulse) = each.p_W;
-  return out;
+/// A structured array over `items`, which `self` keeps alive: no copy.
+template <class Item>
+py::object rows(const std::vector<Item>& items, const py::dtype& type, const py::object& self) {
+  return read_only(
+      py::array(type, {static_cast<py::ssize_t>(items.size())}, {}, items.data(), self));
+}
+
+/// Fields of a structured array: names, types and where they are in an item.
+struct Fields {
+  py::list names, formats, offsets;
+  void add(const char* name, const char* format, std::size_t offset) {
+    names.append(name);
+    formats.append(format);
+    offsets.append(offset);
+  }
+  /// Those of a ContactImpulse that is `base` bytes into the item.
+  void add_impulse(std::size_t base) {
+    using C = ContactImpulse;
+    add("pair", "i4", base + offsetof(C, pair));
+    add("lambda", "f8", base + offsetof(C, lambda));
+    add("tangential", "3f8", base + offsetof(C, p_W));
+    add("point", "3f8", base + offsetof(C, point_W));
+    add("normal", "3f8", base + offsetof(C, n_W));
+  }
+  py::dtype type(std::size_t size) const {
+    return {names, formats, offsets, static_cast<py::ssize_t>(size)};
+  }
+};
+
+py::object impulses(const py::object& self) {
+  Fields fields;
+  fields.add_impulse(0);
+  return rows(self.cast<const Trajectory&>().impulses, fields.type(sizeof(ContactImpulse)), self);
+}
+
+py::object contacts(const py::object& self) {
+  const auto& run = self.cast<const Trajectory&>();
+  if (!run.contacts) return py::none();
+  using R = RecordedContact;
+  Fields fields;
+  fields.add("row", "i8", offsetof(R, row));
+  fields.add("t", "f8", offsetof(R, t));
+  fields.add("impact", "i4", offsetof(R, impact));
+  fields.add_impulse(offsetof(R, impulse));
+  return rows(*run.contacts, fields.type(sizeof(R)), self);
 }
 
 void bind_trajectory(py::module_& m) {
   using T = Trajectory;
   py::class_<T>(m, "Trajectory", trajectory_doc)
+      .def(py::init([](const Model& model) {
+             return T{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
+           }),
+           "Of no rows; `simulate` writes to it.", py::arg("model"))
       .def_readonly("model", &T::model)
       .def_readonly("options", &T::options)
       .def_readonly("t", &T::t, "[s] shape (rows,)")
@@ -93,8 +138,11 @@ void bind_trajectory(py::module_& m) {
       .def_property_readonly("total", &T::total, "[J] shape (rows,)")
       .def_property_readonly("impacts", &rows<&T::impacts>,
                              "structured array: t, first, count, contacts, law, fallback")
-      .def_property_readonly("impulses", &rows<&T::impulses>, "structured array: pair, lambda")
-      .def_property_readonly("tangentials", &tangentials, "[N s] shape (impulses, 3)")
+      .def_property_readonly("impulses", &impulses,
+                             "structured array: pair, lambda, tangential, point, normal")
+      .def_property_readonly("contacts", &contacts,
+                             "structured array: row, t, impact (-1: held), and as impulses; None "
+                             "where they were not recorded")
       .def_property_readonly("settlings", &rows<&T::settlings>, "structured array: t, pair")
       .def_readonly("certificates", &T::certificates, "a text an impact, none unless asked for")
       .def_readonly("iterations", &T::iterations)
@@ -114,9 +162,10 @@ void bind_rollout(py::module_& m) {
       .def_readonly("potential", &Energies::potential, "[J]")
       .def_readonly("shadow", &Energies::shadow, "[J] H - h^2 kappa / 24");
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
-  m.def("simulate", &run, simulate_doc, py::arg("model"), py::arg("start"), py::arg("duration"),
+  m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
-        py::arg("record_every") = 1, py::arg("progress") = py::none());
+        py::arg("record_every") = 1, py::arg("record_contacts") = false,
+        py::arg("progress") = py::none());
 }
 
 }  // namespace saltus::bindings

@@ -50,6 +50,10 @@ meshes : MeshUse
     What becomes of collision meshes, where the file does not say it.
 srdf : str or os.PathLike, optional
     SRDF, a file or text: which links never collide.
+contact : ContactProperties, optional
+    The default contact, in place of the file's own.
+floor : bool
+    Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
 
 Returns
 -------
@@ -69,7 +73,8 @@ std::string to_path(const PathLike& path) {
 ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                        const py::typing::Iterable<PathLike>& package_dirs,
                        const Unchecked<JointType>& root_joint, const Unchecked<TreeSolver>& solver,
-                       const Unchecked<MeshUse>& meshes, const std::optional<PathLike>& srdf) {
+                       const Unchecked<MeshUse>& meshes, const std::optional<PathLike>& srdf,
+                       const std::optional<ContactProperties>& contact, bool floor) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");
   }
@@ -78,7 +83,9 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                       to_enum(root_joint, "root_joint"),
                       to_enum(solver, "solver"),
                       to_enum(meshes, "meshes"),
-                      {}};
+                      {},
+                      contact,
+                      floor};
   if (srdf && !srdf->value.is_none()) options.srdf = to_path(*srdf);
   for (const py::handle path : package_dirs) {
     options.package_dirs.push_back(to_path({py::reinterpret_borrow<py::object>(path)}));
@@ -101,7 +108,8 @@ void bind_urdf(py::module_& m) {
         py::arg_v("root_joint", UrdfOptions{}.root_joint, "JointType.fixed"),
         py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
         py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
-        py::arg_v("srdf", py::none(), "None"));
+        py::arg_v("srdf", py::none(), "None"), py::arg_v("contact", py::none(), "None"),
+        py::arg("floor") = UrdfOptions{}.floor);
 }
 
 }  // namespace saltus::bindings

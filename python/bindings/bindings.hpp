@@ -25,6 +25,7 @@ void bind_spatial(py::module_& m);
 void bind_lagrangian(py::module_& m);
 void bind_collision(py::module_& m);
 void bind_model(py::module_& m);
+void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
 void bind_model_builder(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
@@ -103,12 +104,15 @@ std::vector<std::string> names_of(const Items& items) {
   return names;
 }
 
+inline py::array read_only(py::array array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
 /// A read-only array over `items`, which `owner` keeps alive: no copy.
 template <class Item>
 py::array view(const std::vector<Item>& items, const py::handle& owner) {
-  py::array array(static_cast<py::ssize_t>(items.size()), items.data(), owner);
-  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return array;
+  return read_only(py::array(static_cast<py::ssize_t>(items.size()), items.data(), owner));
 }
 
 }  // namespace saltus::bindings

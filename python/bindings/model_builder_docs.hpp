@@ -175,7 +175,7 @@ constexpr auto set_material =
 Parameters
 ----------
 link : str
-    The root link's material is that of its half-spaces too.
+    The root link's material is that of its half-spaces too; `add_floor` gives a floor its own.
 material : str
     Any name; `set_contact` says what happens between two.
 )";
@@ -198,9 +198,9 @@ ModelError
 )";
 
 constexpr auto set_default_contact =
-    R"(Says what happens between all shapes that no `set_contact` is said of.
+    R"(Says what happens between all shapes that nothing else is said of.
 
-Elastic and without friction otherwise. Parameters as in `set_contact`.
+`set_contact` of their materials comes first, then the properties of a floor (`add_floor`). Elastic and without friction otherwise. Parameters as in `set_contact`.
 )";
 
 constexpr auto build = R"(Checks the whole and freezes it.
@@ -208,6 +208,7 @@ constexpr auto build = R"(Checks the whole and freezes it.
 Returns
 -------
 Model
+    Its `warnings` are also issued as `ModelWarning`.
 
 Raises
 ------

@@ -15,7 +15,7 @@ struct NamedImpact {
   double t;
   std::vector<std::string> pairs;
   VecX lambdas;
-  MatX tangentials;  ///< (impulses, 3)
+  MatX tangentials, points, normals;  ///< (impulses, 3)
   int contacts;
   ImpactLaw law;
   bool fallback;
@@ -24,8 +24,8 @@ struct NamedImpact {
 
 struct NamedContact {
   std::string pair;
-  double normal;
-  Vec3 tangential;
+  double impulse;
+  Vec3 tangential, point, normal;
 };
 
 /// Stepper's own report is overwritten by its next step; Python keeps copies.

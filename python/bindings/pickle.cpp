@@ -25,8 +25,8 @@ using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia>;
 using Joints =
     Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
            &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction>;
-using Shapes =
-    Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape, &ShapeSpec::X_LG>;
+using Shapes = Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape,
+                      &ShapeSpec::X_LG, &ShapeSpec::material, &ShapeSpec::contact>;
 
 using Faces = Listed<Hull::Face, &Hull::Face::normal, &Hull::Face::offset, &Hull::Face::corners>;
 using Edges =

@@ -75,7 +75,9 @@ from saltus._core import (
     shape_name,
     solid_box,
     solid_cylinder,
+    solid_inertia,
     solid_sphere,
+    volume,
 )
 from saltus.batch import simulate_batch
 from saltus.batch_trajectory import BatchTrajectory
@@ -159,6 +161,8 @@ __all__ = [
     "simulate_batch",
     "solid_box",
     "solid_cylinder",
+    "solid_inertia",
     "solid_sphere",
     "urdf_dir",
+    "volume",
 ]

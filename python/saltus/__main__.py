@@ -111,6 +111,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
         help="which of several approaching contacts is next; default: %(default)s",
     )
     add("--record-every", type=int, default=1, metavar="N", help="steps between recorded rows")
+    add("--contacts", action="store_true", help="--out has every impulse between bodies as well")
     add("--no-collisions", action="store_true", help="bodies pass through each other")
     add("--out", metavar="FILE.h5", help="write the trajectory to this HDF5 file")
     add("--plot", metavar="FILE.png", help="write a picture; its ending says in which format")
@@ -145,6 +146,13 @@ def _add_info(commands_of: Commands[Parser]) -> None:
 def _add_loading(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--floating", action="store_true", help="the root link is free instead of fixed")
+    add("--floor", action="store_true", help="a floor at z = 0, unless the file has it")
+    add(
+        "--contact",
+        metavar="E,MU",
+        type=commands.contact,
+        help="restitution and friction where the file says nothing of two materials, as in 0,0.5",
+    )
     add("--srdf", metavar="FILE", help="SRDF file that says which links never collide")
     add("--no-meshes", action="store_true", help="collision meshes are not used")
 

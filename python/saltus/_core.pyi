@@ -90,10 +90,13 @@ class ModelError(ValueError):
         Kind of the culprit where it has a name ("link", "joint", "coordinate"), else "".
     name : str
         Its name, else "".
+    trajectory : Trajectory or None
+        The rows before it, where it ended a run of `simulate`.
     """
 
     element: typing.ClassVar[str] = ""
     name: typing.ClassVar[str] = ""
+    trajectory: typing.Any
 
 class StepError(RuntimeError):
     """
@@ -107,11 +110,14 @@ class StepError(RuntimeError):
         [largest momentum] scaled residual when the solver gave up.
     iterations : int
         Newton iterations, arcs or impulses spent.
+    trajectory : Trajectory or None
+        The rows before it, where it ended a run of `simulate`.
     """
 
     iterations: typing.ClassVar[int] = 0
     residual: typing.ClassVar[float]
     t: typing.ClassVar[float]
+    trajectory: typing.Any
 
 class JammedError(StepError):
     """
@@ -131,6 +137,36 @@ class Pose:
     R : array_like, shape (3, 3)
         Rotation; its columns are B's axes in A.
     """
+    @staticmethod
+    def from_quaternion(
+        quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"],
+        p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+    ) -> Pose:
+        """
+        A pose from a quaternion x y z w.
+
+        Parameters
+        ----------
+        quaternion : array_like, shape (4,)
+            x y z w, of any length but 0.
+        p : array_like, shape (3,)
+            [m] B's origin in A.
+
+        Raises
+        ------
+        ModelError
+            On a quaternion that is not finite or has no length.
+        """
+    @staticmethod
+    def from_rpy(
+        roll: typing.SupportsFloat | typing.SupportsIndex,
+        pitch: typing.SupportsFloat | typing.SupportsIndex,
+        yaw: typing.SupportsFloat | typing.SupportsIndex,
+        p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+    ) -> Pose:
+        """
+        A pose from fixed-axis roll, pitch and yaw [rad] and a position [m], as in URDF.
+        """
     def __getstate__(self) -> tuple: ...
     def __init__(
         self,
@@ -166,6 +202,19 @@ class Pose:
     def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         [m] origin, shape (3,)
+        """
+    @property
+    def quaternion(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+        """
+        the rotation as unit quaternion x y z w with w >= 0, shape (4,)
+        """
+    @property
+    def rpy(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Roll, pitch, yaw [rad] of the rotation, shape (3,).
+
+        Pitch is in [-pi/2, pi/2]. Where it is at one of the ends only yaw - roll or yaw + roll is told, and
+        roll is 0.
         """
 
 class BodyInertia:
@@ -524,9 +573,9 @@ class State:
     ----------
     t : float
         [s]
-    q : array_like, shape (n,)
-        [rad | m] coordinates.
-    p : array_like, shape (n,)
+    q : array_like, shape (n_q,)
+        [rad | m] coordinates; of ball joints a unit quaternion x y z w.
+    p : array_like, shape (n_v,)
         [kg m^2/s | kg m/s] conjugate momenta, p = L_v.
     """
 
@@ -546,12 +595,12 @@ class State:
     @property
     def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        [kg m^2/s | kg m/s] conjugate momenta, shape (n,)
+        [kg m^2/s | kg m/s] conjugate momenta, shape (n_v,)
         """
     @property
     def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        [rad | m] coordinates, shape (n,)
+        [rad | m] coordinates, shape (n_q,)
         """
     @property
     def t(self) -> float:
@@ -563,8 +612,9 @@ class JointType(enum.Enum):
     """
     Kinds of joints and their coordinates.
 
-    planar: x, y, yaw in the plane normal to the axis; floating: x, y, z, then yaw, pitch, roll
-    (singular at pitch = pi/2); spherical: yaw, pitch, roll; helical: turns and advances by `pitch`.
+    planar: x, y, yaw in the plane normal to the axis; spherical: a ball, whose coordinates are a unit
+    quaternion x y z w and whose velocities are the angular velocity, both in the parent's axes;
+    floating: x, y, z, then a ball; helical: turns and advances by `pitch`.
     """
 
     continuous = ...
@@ -591,16 +641,11 @@ class Link:
 
 class Coordinate:
     """
-    A generalized coordinate and what the model's file says of it.
+    A number of q and what the model's file says of it.
 
     Limits, damping and friction are kept for the user; the stepper does not apply them.
     """
     def __repr__(self) -> str: ...
-    @property
-    def angular(self) -> bool:
-        """
-        True for [rad], False for [m]
-        """
     @property
     def damping(self) -> float:
         """
@@ -632,6 +677,11 @@ class Coordinate:
         the joint's, `<joint>_x` ... where it has several
         """
     @property
+    def unit(self) -> str:
+        """
+        "m", "rad", or "1" of a quaternion's numbers
+        """
+    @property
     def upper(self) -> float:
         """
         [rad | m] limit, inf where there is none
@@ -655,7 +705,7 @@ class JointInfo:
     @property
     def coordinates(self) -> list[int]:
         """
-        indices of those that move it
+        indices in q of those that move it
         """
     @property
     def name(self) -> str: ...
@@ -666,6 +716,11 @@ class JointInfo:
         """
     @property
     def type(self) -> JointType: ...
+    @property
+    def velocities(self) -> list[int]:
+        """
+        indices in v and p, likewise
+        """
 
 class TreeSolution:
     """
@@ -732,20 +787,23 @@ class Gaps:
     @property
     def phi_q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
-        [m/rad | 1] shape (m, n)
+        [m/rad | 1] shape (m, n_v)
         """
     @property
     def phi_qq(self) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]]:
         """
-        m arrays of shape (n, n)
+        m arrays of shape (n_v, n_v)
         """
 
 class Model:
     """
     A tree of rigid bodies: frozen, checked, cheap to copy.
 
-    Made by `load_urdf` or `ModelBuilder.build`. Wherever a method takes coordinates or velocities,
-    it takes an array of shape (n,) or a mapping from names to values, whose other values are 0.
+    Made by `load_urdf` or `ModelBuilder.build`. Where a method takes coordinates, it takes an array of
+    shape (n_q,) or a mapping from names to values, others being those of `neutral`; where it takes
+    velocities, an array of shape (n_v,) or a mapping, others being 0. In both mappings the name of a
+    joint with several numbers stands for all of them: `q={"base": Pose(...)}`, or a position and a
+    quaternion, or a SciPy Rotation; `v={"base": ((1, 0, 0), (0, 0, 5))}`.
     """
     def __copy__(self) -> Model: ...
     def __deepcopy__(self, memo: typing.Any) -> Model: ...
@@ -760,20 +818,77 @@ class Model:
         """
     def coordinate(self, name: str) -> int:
         """
-        Index of a coordinate; ModelError with the names there are.
+        Index of a coordinate in q; ModelError with the names there are.
         """
-    def gaps(self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None) -> Gaps:
+    def difference(
+        self,
+        q0: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        q1: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
-        Gaps phi of all pairs with their first and second partials.
+        The dv with integrate(q0, dv) = q1, the shortest of them.
+
+        It compares orientations: a quaternion and its negative are one, and differ by 0.
 
         Parameters
         ----------
-        q : array_like, shape (n,), or mapping of names to values
+        q0, q1 : array_like, shape (n_q,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,)
+            [rad | m] at most pi for each ball.
+
+        Raises
+        ------
+        ModelError
+            As `state`.
+        """
+    def gaps(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> Gaps:
+        """
+        Gaps phi of all pairs with their first and second partials.
+
+        Partials are along velocities: `phi_q @ v` is the rate of phi, and `v @ phi_qq[i] @ v` its second
+        derivative where q moves at the constant velocities v.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values
             [rad | m]
 
         Returns
         -------
         Gaps
+        """
+    def integrate(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        dv: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Coordinates after motion at constant velocities dv for 1 s.
+
+        Adds dv to the coordinates of joints with one number each; turns a ball by the angle |w| about w, in
+        its parent's axes.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values
+            [rad | m]
+        dv : array_like, shape (n_v,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_q,)
+
+        Raises
+        ------
+        ModelError
+            As `state`.
         """
     def kinetic_energy(self, state: State) -> float:
         """
@@ -781,17 +896,21 @@ class Model:
         """
     def lagrangian(
         self,
-        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
-        v: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
     ) -> LagrangianPartials:
         """
         L = T - V and all its first and second partials.
 
+        Partials by q are along velocities, of shape (n_v,). Of a ball they are along turns exp(eta) R about
+        its parent's axes, with the angular velocity in these axes held: `L_q` is no force then (the torque
+        is L_q + w x L_v), and `L_qq` is not symmetric within a ball.
+
         Parameters
         ----------
-        q : array_like, shape (n,), or mapping of names to values
+        q : array_like, shape (n_q,), or mapping of names to values
             [rad | m]
-        v : array_like, shape (n,), or mapping of names to values
+        v : array_like, shape (n_v,), or mapping of names to values
             [rad/s | m/s]
 
         Returns
@@ -808,19 +927,46 @@ class Model:
         Index of a link; ModelError with the names there are.
         """
     def mass_matrix(
-        self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
         M(q) = L_vv.
 
         Parameters
         ----------
-        q : array_like, shape (n,), or mapping of names to values
+        q : array_like, shape (n_q,), or mapping of names to values
             [rad | m]
 
         Returns
         -------
-        numpy.ndarray, shape (n, n)
+        numpy.ndarray, shape (n_v, n_v)
+        """
+    def neutral(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Coordinates at rest: 0, but quaternions, which are the identity.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_q,)
+        """
+    def normalized(
+        self, q: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Coordinates with their quaternions made of length 1.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,)
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_q,)
+
+        Raises
+        ------
+        ModelError
+            On a wrong shape, a value that is not finite, a quaternion of length 0.
         """
     def pair(self, pair: typing.SupportsInt | typing.SupportsIndex) -> Pair:
         """
@@ -836,7 +982,7 @@ class Model:
         """
     def pose(
         self,
-        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
         link: str | int,
     ) -> Pose:
         """
@@ -844,7 +990,7 @@ class Model:
 
         Parameters
         ----------
-        q : array_like, shape (n,), or mapping of names to values
+        q : array_like, shape (n_q,), or mapping of names to values
             [rad | m]
         link : str or int
             Its name or index.
@@ -878,10 +1024,28 @@ class Model:
             Homogeneous matrices.
         """
     def potential_energy(
-        self, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
     ) -> float:
         """
         [J] of gravity, zero at the world's origin.
+        """
+    def random_configuration(
+        self, random: typing.Any = None
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Coordinates drawn at random.
+
+        Quaternions are uniform over all orientations; others are uniform within their limits, and where
+        there are none within +-pi rad and +-1 m.
+
+        Parameters
+        ----------
+        random : int or numpy.random.Generator, optional
+            Seed, or where numbers are drawn from.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_q,)
         """
     def shape_poses(
         self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], shape: str | int
@@ -900,8 +1064,10 @@ class Model:
         """
     def state(
         self,
-        q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None = None,
-        v: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None = None,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
         t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> State:
         """
@@ -909,10 +1075,10 @@ class Model:
 
         Parameters
         ----------
-        q : array_like, shape (n,), or mapping of names to values
-            [rad | m]; coordinates that are not named are 0.
-        v : array_like, shape (n,), or mapping of names to values
-            [rad/s | m/s]
+        q : array_like, shape (n_q,), or mapping of names to values
+            [rad | m]; coordinates that are not named are as in `neutral`.
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]; of free and ball joints in the parent's axes.
         t : float
             [s]
 
@@ -923,7 +1089,8 @@ class Model:
         Raises
         ------
         ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
+            On an unknown name, a wrong shape, a value that is not finite, a quaternion that is not of
+            length 1 (to 1e-6; within that it is normalised).
         """
     def velocities(
         self,
@@ -956,7 +1123,7 @@ class Model:
 
         Returns
         -------
-        numpy.ndarray, shape (n,)
+        numpy.ndarray, shape (n_v,)
             [rad/s | m/s]
 
         Raises
@@ -965,6 +1132,10 @@ class Model:
             On a state that does not fit the model.
         StepError
             Where the mass matrix is singular.
+        """
+    def velocity_index(self, name: str) -> int:
+        """
+        Index of a velocity in v and p; ModelError with the names there are.
         """
     def without_collisions(self) -> Model:
         """
@@ -995,7 +1166,12 @@ class Model:
     @property
     def n_q(self) -> int:
         """
-        number of coordinates, n elsewhere
+        numbers in q: a ball joint has four
+        """
+    @property
+    def n_v(self) -> int:
+        """
+        numbers in v and p: a ball joint has three
         """
     @property
     def name(self) -> str: ...
@@ -1021,6 +1197,8 @@ class Model:
         """
         the URDF text it was read from, "" for a model built in code
         """
+    @property
+    def velocity_names(self) -> list[str]: ...
     @property
     def warnings(self) -> list[str]:
         """
@@ -1611,6 +1789,12 @@ class Impact:
         [N s] the impulses, `p += lambda * phi_q`.
     tangentials : numpy.ndarray, shape (impulses, 3)
         [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+    points : numpy.ndarray, shape (impulses, 3)
+        [m] where each impulse acts, in the world: halfway between the nearest points of the two shapes.
+        NaN where that is not known: in runs from files of before there were points.
+    normals : numpy.ndarray, shape (impulses, 3)
+        Unit normal of each contact, in the world, from the pair's second shape to the first, on which
+        `lambda * normal + tangential` acts. NaN as `points`.
     contacts : int
         Pairs that touched.
     law : ImpactLaw
@@ -1633,6 +1817,8 @@ class Impact:
         certificate: str = "",
         tangentials: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
         | None = None,
+        points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -1647,7 +1833,11 @@ class Impact:
     @property
     def law(self) -> ImpactLaw: ...
     @property
+    def normals(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
     def pairs(self) -> list[str]: ...
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def t(self) -> float: ...
     @property
@@ -1655,24 +1845,36 @@ class Impact:
 
 class ContactImpulse:
     """
-    What held a pair closed over a step: its impulses, but for those of impacts.
+    What held a pair closed over a step: the sum of its impulses, but for those of impacts.
 
-    Divided by the step `h` these are its mean forces.
+    On the pair's first shape acts `impulse * normal + tangential`, at `point`; on the second the
+    opposite. Divided by the step `h` these are mean forces. The impulses that are summed act where the
+    contact is at the start of each arc of the step, and at its end: `point` and `normal` are the mean
+    of these, weighted by the impulses. Where a body slides on a plane the sum has the moment of its
+    parts.
 
     Attributes
     ----------
     pair : str
         Name of the pair.
-    normal : float
+    impulse : float
         [N s] along the normal, >= 0.
     tangential : numpy.ndarray, shape (3,)
-        [N s] friction on the pair's first shape, in the world; 0 without friction.
+        [N s] friction, across the normal, in the world; 0 without friction.
+    point : numpy.ndarray, shape (3,)
+        [m] in the world, halfway between the nearest points of the two shapes.
+    normal : numpy.ndarray, shape (3,)
+        Unit normal in the world, from the pair's second shape to the first.
     """
     def __repr__(self) -> str: ...
     @property
-    def normal(self) -> float: ...
+    def impulse(self) -> float: ...
+    @property
+    def normal(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
     def pair(self) -> str: ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
     @property
     def tangential(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
 
@@ -1697,7 +1899,7 @@ class StepReport:
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
     contacts : list of ContactImpulse
-        What held pairs closed over the step, impacts left aside.
+        What held pairs closed over the step, a pair once, impacts left aside.
     """
     def __repr__(self) -> str: ...
     @property
@@ -1790,6 +1992,10 @@ class Trajectory:
     """
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
+    def __init__(self, model: Model) -> None:
+        """
+        Of no rows; `simulate` writes to it.
+        """
     @property
     def certificates(self) -> list[str]:
         """
@@ -1797,6 +2003,11 @@ class Trajectory:
         """
     @property
     def complete(self) -> bool: ...
+    @property
+    def contacts(self) -> typing.Any:
+        """
+        structured array: row, t, impact (-1: held), and as impulses; None where they were not recorded
+        """
     @property
     def energy_error(self) -> float: ...
     @property
@@ -1807,7 +2018,7 @@ class Trajectory:
     @property
     def impulses(self) -> typing.Any:
         """
-        structured array: pair, lambda
+        structured array: pair, lambda, tangential, point, normal
         """
     @property
     def iterations(self) -> int: ...
@@ -1851,11 +2062,6 @@ class Trajectory:
     def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         [s] shape (rows,)
-        """
-    @property
-    def tangentials(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        [N s] shape (impulses, 3)
         """
     @property
     def total(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -1905,6 +2111,10 @@ class BatchTrajectory:
     """
     The arrays of a batch, as read-only views; `saltus.BatchTrajectory` wraps this.
     """
+    def __init__(self, model: Model) -> None:
+        """
+        Of no runs; `simulate_batch` writes to it.
+        """
     def run(self, index: typing.SupportsInt | typing.SupportsIndex) -> Trajectory:
         """
         One run as a Trajectory of its own.
@@ -2219,7 +2429,7 @@ def resolve_impact(
     """
 
 def resolve_overlap(
-    model: Model, q: collections.abc.Mapping[str, float] | numpy.typing.ArrayLike | None
+    model: Model, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
     """
     The nearest configuration without overlap.
@@ -2268,76 +2478,76 @@ def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid 
     """
 
 def simulate(
-    model: Model,
+    run: Trajectory,
     start: State,
     duration: typing.SupportsFloat | typing.SupportsIndex,
     *,
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    record_contacts: bool = False,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
-) -> Trajectory:
+) -> None:
     """
     Runs round(duration / h) steps from `start`; row 0 is `start`.
 
     Parameters
     ----------
-    model : Model
+    run : Trajectory
+        Is written: all rows, those before the step where it raises an error or Ctrl-C
+        (KeyboardInterrupt) stops it, none where numbers make no run. Not `complete` where rows lack.
     start : State
     duration : float
         [s] a whole number of steps.
     options : StepOptions
     record_every : int
         Steps between recorded rows.
+    record_contacts : bool
+        Whether to fill `contacts`.
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-    Returns
-    -------
-    Trajectory
-        Not `complete` where Ctrl-C (KeyboardInterrupt) stopped it.
 
     Raises
     ------
     ModelError
         On a duration or h that is not positive, a duration that is no whole number of steps, a start
-        that does not fit the model or overlaps.
+        that does not fit the model or overlaps, more than 16 GB.
     StepError, JammedError
         As `Stepper.advance`.
     """
 
 def simulate_batch(
-    model: Model,
+    batch: BatchTrajectory,
     starts: collections.abc.Sequence[State],
     duration: typing.SupportsFloat | typing.SupportsIndex,
     *,
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    record_contacts: bool = False,
     threads: typing.SupportsInt | typing.SupportsIndex = 0,
     on_failure: OnFailure = ...,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
-) -> BatchTrajectory:
+) -> None:
     """
     Runs round(duration / h) steps from every start.
 
     Parameters
     ----------
-    model : Model
+    batch : BatchTrajectory
+        Is written: all runs, also where one raises an error; none where numbers make no run. Runs that
+        Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
     starts : list of State
     duration : float
         [s] a whole number of steps.
     options : StepOptions
     record_every : int
         Steps between recorded rows.
+    record_contacts : bool
+        Whether to fill `contacts` of each run.
     threads : int
         0: as many as the machine runs at once. The bits do not depend on it.
     on_failure : OnFailure
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
-
-    Returns
-    -------
-    BatchTrajectory
-        Runs that Ctrl-C (KeyboardInterrupt) stopped are not `complete`.
 
     Raises
     ------

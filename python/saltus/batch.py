@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core
-from saltus._core import ImpactLaw, Model, ModelError, OnFailure, State, StepOptions
+from saltus._core import (
+    ImpactLaw,
+    Model,
+    ModelError,
+    OnFailure,
+    State,
+    StepError,
+    StepOptions,
+)
 from saltus.batch_trajectory import BatchTrajectory
-from saltus.rollout import Law, Progress, StepBounds, check_types, progress_bar
-from saltus.trajectory import Array
+from saltus.rollout import Law, Progress, StepBounds, check_types, keep_rows, progress_bar
+from saltus.trajectory import Array, Trajectory
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -32,6 +41,7 @@ def simulate_batch(
     law: Law = ImpactLaw.nodal_energy,
     collisions: bool = True,
     record_every: int = 1,
+    record_contacts: bool = False,
     states: Sequence[State] | None = None,
     threads: int | None = None,
     on_failure: OnFailure = OnFailure.go_on,
@@ -65,6 +75,8 @@ def simulate_batch(
     record_every : int
         Steps between recorded rows; start and end are always recorded, and a number of at least
         duration / h leaves these two.
+    record_contacts : bool
+        Whether to keep every impulse between bodies, as `contacts` of each run `batch[i]`.
     states : sequence of State, optional
         The starts in place of `q` and `v`, all at the same time.
     threads : int, optional
@@ -91,9 +103,11 @@ def simulate_batch(
     ModelError
         Before anything runs, on starts that do not fit the model or are not finite, none at all,
         a duration or h that is not positive, a duration that is no whole number of steps,
-        threads < 1, more than 16 GB of rows. With `OnFailure.stop` also on a start that overlaps.
+        threads < 1, more than 16 GB of rows; a run whose `contacts` would take more than its share
+        of what rows leave of these fails. With `OnFailure.stop` also on a start that overlaps.
     StepError, JammedError
-        With `OnFailure.stop`, as `simulate`, with "run <index>: " before the message.
+        With `OnFailure.stop`, as `simulate`, with "run <index>: " before the message. The rows
+        before it are `error.trajectory`.
     """
     check_types(model, bounds, "simulate_batch")
     if not isinstance(on_failure, OnFailure):
@@ -111,13 +125,15 @@ def simulate_batch(
         if not isinstance(state, State):
             raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
     options = StepOptions(h, law, collisions, **bounds)
-    with progress_bar(progress, len(states), "runs") as report:
-        core = _core.simulate_batch(
-            model,
+    core = _core.BatchTrajectory(model)
+    with progress_bar(progress, len(states), "runs") as report, keeping_run(core):
+        _core.simulate_batch(
+            core,
             states,
             duration,
             options=options,
             record_every=record_every,
+            record_contacts=record_contacts,
             threads=threads or 0,
             on_failure=on_failure,
             progress=report,
@@ -125,6 +141,17 @@ def simulate_batch(
     batch = BatchTrajectory.from_core(core)
     _tell(batch)
     return batch
+
+
+@contextmanager
+def keeping_run(core: _core.BatchTrajectory) -> Iterator[None]:
+    """Give the error of a run the rows before it, as `simulate` does."""
+    try:
+        yield
+    except (ModelError, StepError) as error:
+        if core.failures:
+            keep_rows(error, Trajectory.from_core(core.run(min(core.failures))))
+        raise
 
 
 class _Space(NamedTuple):

@@ -28,6 +28,24 @@ def assignment(text: str) -> tuple[str, float]:
         raise argparse.ArgumentTypeError(f"'{value}' in '{text}' is no number") from None
 
 
+def contact(text: str) -> saltus.ContactProperties:
+    """Return the properties that "E,MU" says."""
+    words = text.split(",")
+    if len(words) != 2:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not of the form E,MU: restitution and friction, as in 0,0.5 for wood "
+            "that does not bounce, or 1,0 for elastic and smooth"
+        )
+    try:
+        restitution, friction = map(float, words)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not two numbers, as in 0,0.5") from None
+    try:
+        return saltus.ContactProperties(restitution=restitution, friction=friction)
+    except saltus.ModelError as error:
+        raise argparse.ArgumentTypeError(f"'{text}': {error}") from None
+
+
 def cmake_dir(_: argparse.Namespace) -> int:
     """Print the CMake prefix of the package."""
     print(saltus.cmake_dir())
@@ -42,19 +60,14 @@ def simulate(chosen: argparse.Namespace) -> int:
     for path in (chosen.plot, chosen.plot_impacts):
         if path is not None:
             plots.new_figure(path, (1, 1))  # says at once, not after the run, what is missing
-    model = _load(chosen)
-    run = saltus.simulate(
-        model,
-        q=dict(chosen.q),
-        v=dict(chosen.v),
-        duration=chosen.duration,
-        h=chosen.h,
-        law=saltus.ImpactLaw[chosen.law],
-        order=saltus.ImpactOrder[chosen.order],
-        certify=True,
-        collisions=not chosen.no_collisions,
-        record_every=chosen.record_every,
-    )
+    try:
+        run = _run(chosen)
+    except saltus.StepError as error:
+        before = error.trajectory
+        if chosen.out and before is not None:
+            files.save(before, chosen.out)
+            print(f"trajectory, up to t = {before.t[-1]:g} s: {chosen.out}")
+        raise
     _print_impacts(run, everything=chosen.all_impacts)
     print(run.summary())
     if chosen.out:
@@ -69,6 +82,22 @@ def simulate(chosen: argparse.Namespace) -> int:
     return 0 if run.complete else INTERRUPTED
 
 
+def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
+    return saltus.simulate(
+        _load(chosen),
+        q=dict(chosen.q),
+        v=dict(chosen.v),
+        duration=chosen.duration,
+        h=chosen.h,
+        law=saltus.ImpactLaw[chosen.law],
+        order=saltus.ImpactOrder[chosen.order],
+        certify=True,
+        collisions=not chosen.no_collisions,
+        record_every=chosen.record_every,
+        record_contacts=chosen.contacts,
+    )
+
+
 def info(chosen: argparse.Namespace) -> int:
     """Print what a model consists of."""
     model = _load(chosen)
@@ -78,6 +107,7 @@ def info(chosen: argparse.Namespace) -> int:
         f"coordinates, {model.n_v} velocities, {len(model.shapes)} shapes, {model.n_pairs} gaps, {mass:g} kg"
     )
     _print_solvers(model)
+    print(f"default contact: {_in_words(model.default_contact)}")
     _print_table(
         "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}"] for link in model.links)
     )
@@ -105,6 +135,8 @@ def _load(chosen: argparse.Namespace) -> saltus.Model:
         root_joint=root,
         meshes=saltus.MeshUse.none if chosen.no_meshes else saltus.MeshUse.hull,
         srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
+        contact=chosen.contact,
+        floor=chosen.floor,
     )
 
 
@@ -138,14 +170,17 @@ def _print_solvers(model: saltus.Model) -> None:
     print(f"solver: {', '.join(texts) or 'none, nothing moves'}")
 
 
+def _in_words(properties: saltus.ContactProperties | None) -> str:
+    if properties is None:
+        return "elastic and without friction, because nothing is said of it"
+    return f"restitution {properties.restitution:g}, friction {properties.friction:g}"
+
+
 def _print_coordinates(model: saltus.Model) -> None:
     def limit(x: float) -> str:
         return "" if math.isinf(x) else f"{x:g}"
 
-    rows = (
-        [c.name, c.joint, c.unit, limit(c.lower), limit(c.upper)]
-        for c in model.coordinates
-    )
+    rows = ([c.name, c.joint, c.unit, limit(c.lower), limit(c.upper)] for c in model.coordinates)
     _print_table("coordinates", ["name", "joint", "unit", "lower", "upper"], rows)
 
 

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from saltus._core import (
+    ContactProperties,
     Convex,
+    HalfSpace,
     ImpactLaw,
     ImpactOrder,
     ImpactProblem,
@@ -23,7 +25,8 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.trajectory import IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
+from saltus.trajectory import CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, SETTLING, Trajectory
+from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
     import h5py
@@ -42,6 +45,8 @@ class UrdfOptions(TypedDict):
     root_joint: JointType
     solver: TreeSolver
     meshes: MeshUse
+    contact: ContactProperties | None
+    floor: bool
 
 
 def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
@@ -116,6 +121,8 @@ def _write(run: Trajectory, file: h5py.File) -> None:
         file[name] = getattr(run, name)
     file["impulses"] = run.impulses
     file["settlings"] = run.settlings
+    if run.recorded_contacts is not None:
+        file["contacts"] = run.recorded_contacts
     # The law by name, so that other programs can read it.
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
@@ -131,6 +138,10 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     file.attrs["root_joint"] = options["root_joint"].name
     file.attrs["solver"] = options["solver"].name
     file.attrs["meshes"] = options["meshes"].name
+    file.attrs["floor"] = options["floor"]
+    if options["contact"] is not None:
+        file.attrs["restitution"] = options["contact"].restitution
+        file.attrs["friction"] = options["contact"].friction
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
@@ -147,6 +158,8 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
+    if "contacts" in file:
+        arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
@@ -159,13 +172,16 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
         velocities = tuple(file["velocity_names"].asstr()[()])
     pairs = tuple(file["pair_names"].asstr()[()])
     if model is None and "urdf" in file:
-        model = read_urdf(
+        builder = read_urdf(
             file["urdf"].asstr()[()],
             gravity=file.attrs["gravity"],
             root_joint=JointType[file.attrs["root_joint"]],
             solver=TreeSolver[file.attrs.get("solver", "automatic")],
             meshes=MeshUse[file.attrs.get("meshes", "none")],
-        ).build()
+            contact=_contact(file),
+            floor=bool(file.attrs.get("floor", False)),
+        )
+        model = build_quietly(builder)
         if not pairs and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
     if model is not None:
@@ -182,6 +198,14 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
     )
 
 
+def _contact(file: h5py.File) -> ContactProperties | None:
+    if "friction" not in file.attrs:
+        return None
+    return ContactProperties(
+        restitution=file.attrs["restitution"].item(), friction=file.attrs["friction"].item()
+    )
+
+
 def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> None:
     """Raise ModelError where free or ball joints are stored as yaw, pitch and roll."""
     for name in coordinates if version < 2 else ():
@@ -195,6 +219,7 @@ def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> No
 
 def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:
     impulses = np.zeros(len(stored), IMPULSE)  # older files say nothing of friction
+    impulses["point"] = impulses["normal"] = np.nan  # nor where impulses act
     for name in stored.dtype.names or ():
         impulses[name] = stored[name]
     return impulses
@@ -232,29 +257,44 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
     """Return the options with which `load_urdf` makes this model of its text.
 
     None where there is no text, or where the model was changed after it was read, or needs other
-    files (meshes, SRDF): links, joints, shapes or pairs then differ. A solver that makes the same
-    of its trees gives the same bits.
+    files (meshes, SRDF): links, joints, shapes, pairs or contacts then differ. A solver that makes
+    the same of its trees gives the same bits.
     """
     if not model.source:
         return None
     # The joint that load_urdf added, if it did, is the only one below the model's root.
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
-    for meshes, root_joint, solver in product(
-        (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver
+    wanted = _parts(model)
+    floors = (
+        (False, True) if any(isinstance(s.shape, HalfSpace) for s in model.shapes) else (False,)
+    )
+    for floor, meshes, root_joint, solver in product(
+        floors, (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver
     ):
-        options: UrdfOptions = {"root_joint": root_joint, "solver": solver, "meshes": meshes}
+        options: UrdfOptions = {
+            "root_joint": root_joint,
+            "solver": solver,
+            "meshes": meshes,
+            "contact": model.default_contact,
+            "floor": floor,
+        }
         try:
-            again = read_urdf(model.source, **options).build()
+            again = build_quietly(read_urdf(model.source, **options))
         except ModelError:
             continue
-        if _parts(again if model.n_pairs else again.without_collisions()) == _parts(model):
+        if _parts(again if model.n_pairs else again.without_collisions()) == wanted:
             return options
     return None
 
 
-def _parts(model: Model) -> tuple[list[str], ...]:
+def _parts(model: Model) -> tuple[list[object], ...]:
     # A mesh that is in no pair has no part in the motion, and its file may be gone.
     shapes = [s.name for s in model.shapes if not isinstance(s.shape, Convex)]
     names = model.link_names, model.joint_names, model.coordinate_names, shapes
-    pairs = model.pair_names if model.n_pairs <= LISTED_PAIRS else [str(model.n_pairs)]
+    if model.n_pairs > LISTED_PAIRS:
+        pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
+    else:
+        pairs = [
+            (name, repr(model.contact_properties(i))) for i, name in enumerate(model.pair_names)
+        ]
     return *names, pairs, [repr(trees) for trees in model.solvers]

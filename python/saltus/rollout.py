@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TypedDict
 
 from numpy.typing import ArrayLike
@@ -18,6 +18,7 @@ from saltus._core import (
     Model,
     ModelError,
     State,
+    StepError,
     StepOptions,
 )
 from saltus.trajectory import Trajectory
@@ -55,6 +56,7 @@ def simulate(
     law: Law = ImpactLaw.nodal_energy,
     collisions: bool = True,
     record_every: int = 1,
+    record_contacts: bool = False,
     state: State | None = None,
     progress: bool | Progress | None = None,
     **bounds: Unpack[StepBounds],
@@ -80,6 +82,9 @@ def simulate(
         False: bodies pass through each other.
     record_every : int
         Steps between recorded rows.
+    record_contacts : bool
+        Whether to keep every impulse between bodies, of all steps, as `contacts` of the run: where
+        it acts, along which normal, how strong.
     state : State, optional
         The start in place of `q` and `v`, for instance `run.state(-1)` to go on with a run.
     progress : bool or callable, optional
@@ -99,11 +104,16 @@ def simulate(
     ------
     ModelError
         On a start that does not fit the model or overlaps, a duration or h that is not positive,
-        a duration that is no whole number of steps.
+        a duration that is no whole number of steps, more than 16 GB of rows and contacts.
     StepError
         When a step does not converge or its impacts do not end.
     JammedError
         When the impulses at one instant do not end.
+
+    Notes
+    -----
+    An exception that ends a run, also one that `law` or `progress` raises, has the rows before it
+    as `error.trajectory`, a `Trajectory` that is not `complete`.
     """
     check_types(model, bounds, "simulate")
     if state is None:
@@ -111,9 +121,16 @@ def simulate(
     elif q is not None or v is not None:
         raise ModelError("give either state or q and v, not both")
     options = StepOptions(h, law, collisions, **bounds)
-    with progress_bar(progress, duration, "s") as report:
-        core = _core.simulate(
-            model, state, duration, options=options, record_every=record_every, progress=report
+    core = _core.Trajectory(model)
+    with progress_bar(progress, duration, "s") as report, keeping_rows(core):
+        _core.simulate(
+            core,
+            state,
+            duration,
+            options=options,
+            record_every=record_every,
+            record_contacts=record_contacts,
+            progress=report,
         )
     if not core.complete:
         done, end = core.t[-1] - state.t, duration
@@ -122,6 +139,30 @@ def simulate(
             file=sys.stderr,
         )
     return Trajectory.from_core(core)
+
+
+@contextmanager
+def keeping_rows(core: _core.Trajectory) -> Iterator[None]:
+    """Give what is raised the rows before it, as `trajectory`, and say so in its message."""
+    try:
+        yield
+    except BaseException as error:
+        if len(core.t):  # else nothing ran
+            keep_rows(error, Trajectory.from_core(core))
+        raise
+
+
+def keep_rows(error: BaseException, run: Trajectory) -> None:
+    """Set `error.trajectory`, and say so in its message if it is one of ours, else in a note."""
+    with suppress(AttributeError):  # exceptions of others may refuse attributes
+        error.trajectory = run  # type: ignore[attr-defined]
+        text = f"the rows up to t = {run.t[-1]:g} s are its attribute `trajectory`"
+        if len(run) == 1:
+            return  # the start, which is known
+        if isinstance(error, ModelError | StepError):
+            error.args = (f"{error}; {text}",)
+        elif hasattr(error, "add_note"):  # from Python 3.11 on
+            error.add_note(f"saltus: {text}")
 
 
 def check_types(model: object, bounds: Mapping[str, object], caller: str) -> None:

@@ -25,7 +25,15 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-IMPULSE = np.dtype([("impact", "i8"), ("pair", "i4"), ("lambda", "f8"), ("tangential", "f8", (3,))])
+ACTED: list[Any] = [
+    ("pair", "i4"),
+    ("lambda", "f8"),
+    ("tangential", "f8", (3,)),
+    ("point", "f8", (3,)),
+    ("normal", "f8", (3,)),
+]
+IMPULSE = np.dtype([("impact", "i8"), *ACTED])
+CONTACT = np.dtype([("row", "i8"), ("t", "f8"), ("impact", "i8"), *ACTED])
 
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
@@ -59,7 +67,7 @@ def index_of(
         return list(names).index(name)
     hint = ""
     if name in others:
-        hint = f" (\"{name}\" is a column of {'v and p' if of == 'q' else 'q'})"
+        hint = f' ("{name}" is a column of {"v and p" if of == "q" else "q"})'
     raise ModelError(f'no {kind} "{name}"{hint}; there are {", ".join(names)}')
 
 
@@ -77,7 +85,7 @@ class Trajectory:
     velocity_names : tuple of str
         Of the columns of `v` and `p`; those of `q`, but for free and ball joints.
     pair_names : tuple of str
-        Of all pairs; where the model has more than `LISTED_PAIRS`, of those that collided.
+        Of all pairs; where the model has more than `LISTED_PAIRS`, of those that the arrays name.
     t : numpy.ndarray, shape (rows,)
         [s]
     q : numpy.ndarray, shape (rows, n_q)
@@ -92,8 +100,17 @@ class Trajectory:
         Structured, in order of time: "t" [s], "first" and "count" (its rows in `impulses`),
         "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
     impulses : numpy.ndarray
-        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s],
-        "tangential" [N s] (friction on the pair's first shape, in the world, three numbers).
+        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s]
+        along the normal, and in the world, three numbers each: "tangential" [N s] (friction on the
+        pair's first shape), "point" [m] (where the two touch, halfway between their nearest
+        points), "normal" (unit, from the pair's second shape to the first). Point and normal are
+        NaN in runs from files of before they were kept.
+    contacts : numpy.ndarray
+        Structured, with `record_contacts` alone: every impulse that acted between bodies, those of
+        impacts and the sums that held pairs closed over each step (`ContactImpulse`). "row" (the
+        first recorded row at or after the end of its step), "t" [s] (of the impact, or the end of
+        the step), "impact" (row of `impacts`; -1: what held a pair closed), and "pair", "lambda",
+        "tangential", "point", "normal" as in `impulses`. ModelError where they were not recorded.
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
     certificates : tuple of str
@@ -103,7 +120,7 @@ class Trajectory:
     residual : float
         [largest momentum] the worst of any step.
     complete : bool
-        False where the run was stopped before its end.
+        False where the run was stopped or failed before its end.
     energy_error : float
         Greatest |H(t) - H(0)| over the greatest kinetic energy of the run.
     """
@@ -129,20 +146,35 @@ class Trajectory:
     residual: float
     complete: bool
     energy_error: float
+    recorded_contacts: npt.NDArray[np.void] | None = None
+
+    @property
+    def contacts(self) -> npt.NDArray[np.void]:
+        """Every impulse that acted between bodies, see above; ModelError where not recorded."""
+        if self.recorded_contacts is None:
+            raise ModelError(
+                "the contacts of this run were not recorded; ask for them: "
+                "saltus.simulate(..., record_contacts=True)"
+            )
+        return self.recorded_contacts
 
     @classmethod
     def from_core(cls, core: _core.Trajectory) -> Trajectory:
         """Wrap what the compiled part returns; large arrays are not copied."""
         impacts = core.impacts.astype(IMPACT)
-        impulses = np.empty(len(core.impulses), IMPULSE)
+        own = core.impulses
+        impulses = np.empty(len(own), IMPULSE)
         impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
-        impulses["pair"] = core.impulses["pair"]
-        impulses["lambda"] = core.impulses["lambda"]
-        impulses["tangential"] = core.tangentials
+        for name in own.dtype.names or ():
+            impulses[name] = own[name]
         settlings = core.settlings.astype(SETTLING)
+        events = [impulses, settlings]
+        contacts = None if core.contacts is None else core.contacts.astype(CONTACT)
+        if contacts is not None:
+            events.append(contacts)
         model = core.model
-        pair_names = names_of_pairs(model, impulses, settlings)
-        for array in (impacts, impulses, settlings):
+        pair_names = names_of_pairs(model, *events)
+        for array in (impacts, *events):
             array.flags.writeable = False
         names = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
         numbers = ("iterations", "residual", "complete", "energy_error")
@@ -155,6 +187,7 @@ class Trajectory:
             impacts=impacts,
             impulses=impulses,
             settlings=settlings,
+            recorded_contacts=contacts,
             certificates=tuple(core.certificates),
             **{name: getattr(core, name) for name in (*names, *numbers)},
         )
@@ -214,6 +247,8 @@ class Trajectory:
             fallback=bool(row["fallback"]),
             certificate=self.certificates[index] if self.certificates else "",
             tangentials=own["tangential"],
+            points=own["point"],
+            normals=own["normal"],
         )
 
     def require_model(self) -> Model:

@@ -3,17 +3,46 @@
 from __future__ import annotations
 
 import os
+import sys
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from saltus._core import JointType, MeshUse, Model, ModelError, TreeSolver, read_urdf
+from saltus._core import (
+    ContactProperties,
+    JointType,
+    MeshUse,
+    Model,
+    ModelBuilder,
+    ModelError,
+    TreeSolver,
+    read_urdf,
+)
+
+PACKAGE = str(Path(__file__).parent) + os.sep
 
 
 class ModelWarning(UserWarning):
-    """Something in a model's file was understood but is not used."""
+    """Something in a model's file was understood but is not used, or was not said and matters."""
+
+
+def issue_warnings(texts: Sequence[str]) -> None:
+    """Issue a model's warnings as `ModelWarning`, as if from the line that asked this package."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(PACKAGE):
+        level, frame = level + 1, frame.f_back
+    for text in texts:
+        warnings.warn(text, ModelWarning, stacklevel=level)
+
+
+def build_quietly(builder: ModelBuilder) -> Model:
+    """Build without the warnings that were issued when the model was made before."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)
+        return builder.build()
 
 
 def load_urdf(
@@ -25,6 +54,8 @@ def load_urdf(
     solver: TreeSolver = TreeSolver.automatic,
     meshes: MeshUse = MeshUse.hull,
     srdf: str | os.PathLike[str] | None = None,
+    contact: ContactProperties | None = None,
+    floor: bool = False,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -47,6 +78,11 @@ def load_urdf(
         link, `<mesh link="..." use="..."/>`, comes first.
     srdf : str or os.PathLike, optional
         SRDF, a file or text: which links never collide. Half-spaces stay watched.
+    contact : ContactProperties, optional
+        What happens where two bodies touch, or a body and a floor, and nothing else is said of
+        them: the default contact, in place of the file's own.
+    floor : bool
+        True: there is a floor, the half-space z <= 0, unless the file has it.
 
     Returns
     -------
@@ -72,8 +108,7 @@ def load_urdf(
         solver=solver,
         meshes=meshes,
         srdf=srdf,
+        contact=contact,
+        floor=floor,
     )
-    model = builder.build()
-    for text in model.warnings:
-        warnings.warn(text, ModelWarning, stacklevel=2)
-    return model
+    return builder.build()

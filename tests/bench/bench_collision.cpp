@@ -168,9 +168,9 @@ void print_broad_phase(double budget) {
 /// Steps of 1 ms while the first of the balls swings and the others hang.
 Time cradle_step(double budget, const Model& model, bool collisions) {
   Stepper stepper(model, {.h = 1e-3, .collisions = collisions});
-  VecX q = VecX::Zero(model.n_q());
+  VecX q = model.neutral();
   q[0] = 0.3;
-  const State start = model.state(q, VecX::Zero(model.n_q()));
+  const State start = model.state(q, VecX::Zero(model.n_v()));
   State state = start;
   for (int k = 0; k < 10; ++k) stepper.step(state);
   int steps = 0;

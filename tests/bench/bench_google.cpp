@@ -16,8 +16,9 @@ void register_model(const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
   const Model model = load_urdf(job.file, options).build();
-  const int n = model.n_q();
-  const VecX q = VecX::Constant(n, job.angle), v = VecX::Constant(n, 0.1);
+  const int n = model.n_v();
+  const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
+  const VecX v = VecX::Constant(n, 0.1);
   benchmark::RegisterBenchmark((model->name + "/lagrangian").c_str(), [=](benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(model.lagrangian(q, v));
   });

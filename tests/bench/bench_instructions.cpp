@@ -56,8 +56,9 @@ void run(const std::string& workload, const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
   const Model model = load_urdf(job.file, options).build();
-  const int n = model.n_q();
-  const VecX q = VecX::Constant(n, job.angle), v = VecX::Constant(n, 0.1);
+  const int n = model.n_v();
+  const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
+  const VecX v = VecX::Constant(n, 0.1);
   if (workload == "step") {
     count_smooth_steps(model, model.state(q, VecX::Zero(n)));
   } else if (workload == "impact") {

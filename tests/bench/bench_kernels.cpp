@@ -26,7 +26,7 @@ constexpr int largest_dense = 700;  // coordinates; above, n x n arrays outgrow 
 /// Everything that the derivatives of L need, allocated once.
 struct Partials {
   explicit Partials(const Model& with)
-      : model(with), w(model->packed), L_q(VecX::Zero(model.n_q())), L_v(L_q) {}
+      : model(with), w(model->packed), L_q(VecX::Zero(model.n_v())), L_v(L_q) {}
 
   void first(const VecX& q, const VecX& v) {
     set_coordinates(model->tree, model->packed, q, w);
@@ -117,8 +117,9 @@ void run(double budget, const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
   const Model model = load_urdf(job.file, options).build();
-  const int n = model.n_q();
-  const VecX q = VecX::Constant(n, job.angle), v = VecX::Constant(n, 0.1);
+  const int n = model.n_v();
+  const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
+  const VecX v = VecX::Constant(n, 0.1);
   Partials partials(model);
   std::cout << "{\"model\": \"" << model->name << "\", \"n\": " << n;
   std::cout << ", \"first\": " << time_of(budget, [&] { partials.first(q, v); });

@@ -1,7 +1,7 @@
 // What the benchmark programs share: arguments, the clock, passes.
 //
 // PROGRAM SECONDS FILE... spends SECONDS of CPU time on each number of each model. A FILE is URDF;
-// "floating:" before it gives it a free base; "@0.1" after it sets every coordinate to 0.1, and
+// "floating:" before it gives it a free base; "@0.1" after it moves every coordinate by 0.1, and
 // "@0.1,0.2" also every joint's velocity, where there is motion, to 0.2. Each model gives one JSON
 // object, on its own line. Times are of this thread's CPU clock, [us] a call.
 #pragma once

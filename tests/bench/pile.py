@@ -32,7 +32,7 @@ def of_saltus(boxes, duration, h):
     for _ in range(steps):
         state = stepper.advance(state)
     spent = time.perf_counter() - start
-    at = state.q.reshape(boxes, 6)[:, :3]
+    at = state.q.reshape(boxes, 7)[:, :3]
     return 1e3 * spent / steps, abs(at).max(), max(0.0, -min(np.diff(at[:, 2], prepend=0)))
 
 

@@ -14,6 +14,7 @@ set(SALTUS_TEST_lagrangian
   plain/composite.cpp
   plain/energy.cpp
   lagrangian/test_arc_matrix.cpp
+  lagrangian/test_ball_arcs.cpp
   lagrangian/test_balls.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
@@ -45,12 +46,17 @@ set(SALTUS_TEST_model
   model/test_filter.cpp
   model/test_golden.cpp
   model/test_materials.cpp
+  model/test_merge.cpp
   model/test_model.cpp
   model/test_pairs.cpp
+  model/test_scene.cpp
+  model/test_solids.cpp
   model/test_solvers.cpp
 )
 set(SALTUS_TEST_variational
+  variational/test_ball_impacts.cpp
   variational/test_balls.cpp
+  variational/test_tops.cpp
   variational/test_borders.cpp
   variational/test_certificate.cpp
   variational/test_contact_space.cpp
@@ -75,6 +81,7 @@ set(SALTUS_TEST_variational
 )
 set(SALTUS_TEST_rollout
   rollout/test_batch.cpp
+  rollout/test_contacts.cpp
   rollout/test_simulate.cpp
 )
 set(SALTUS_TEST_urdf

@@ -179,7 +179,7 @@ NAN[2, 4] = math.nan
         ({"q": {"swing": ANGLES}}, "there are swing_0"),
         ({"q": {"swing_0": "up"}}, r'q\["swing_0"\] is no array of numbers'),
         ({"q": {"swing_0": [0, 0], "sway_0": [0]}}, r'"swing_0": \(2,\), "sway_0": \(1,\)'),
-        ({"q": {"swing_0": [[0]]}}, r'"swing_0": \(1, 1\)'),
+        ({"q": {"swing_0": [[0]]}}, r'q\["swing_0"\] has shape \(1, 1\)'),
         ({"q": [[0] * 6, [0] * 5]}, "q is no array of numbers"),
         ({"v": np.zeros((3, 6))}, "q has 12 rows and v has 3"),
         ({"q": None}, "single start"),

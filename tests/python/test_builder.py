@@ -83,9 +83,10 @@ def test_joints_with_several_coordinates():
         .add_joint("free", JointType.floating, parent="world", child="body")
         .build()
     )
-    assert model.n_q == 6
-    assert model.joints[0].coordinates == list(range(6))
-    assert [c.angular for c in model.coordinates] == [False] * 3 + [True] * 3
+    assert (model.n_q, model.n_v) == (7, 6)
+    assert model.joints[0].coordinates == list(range(7))
+    assert model.joints[0].velocities == list(range(6))
+    assert [c.unit for c in model.coordinates] == ["m"] * 3 + ["1"] * 4
 
 
 def test_shapes_pairs_and_exclusions():
@@ -192,7 +193,7 @@ def test_a_plain_file_gives_no_warning(tmp_path):
 
 def test_urdf_options():
     model = saltus.load_urdf(chain_on_a_body(), gravity=(0, 0, -1), root_joint=JointType.floating)
-    assert model.n_q == 8
+    assert (model.n_q, model.n_v) == (9, 8)
     assert model.gravity[2] == -1
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 
@@ -81,7 +82,7 @@ def test_other_options_of_simulate(tmp_path):
     assert len(run) == 21
     assert run.options.law is saltus.discrete_energy
     assert run.options.collisions is False
-    assert run.model.n_q == 9
+    assert (run.model.n_q, run.model.n_v) == (10, 9)
     assert run.column("joint_2")[0] == -0.3
     assert run.column("joint_1", "v")[0] == pytest.approx(0.5)
 
@@ -89,9 +90,10 @@ def test_other_options_of_simulate(tmp_path):
 def test_info(tmp_path):
     done = run_cli("info", CRADLE)
     assert done.returncode == 0, done.stderr
-    assert "newtons_cradle_3: 7 links, 6 joints, 6 coordinates, 3 shapes, 3 gaps, 3 kg" in (
-        done.stdout
+    head = (
+        "newtons_cradle_3: 7 links, 6 joints, 6 coordinates, 6 velocities, 3 shapes, 3 gaps, 3 kg"
     )
+    assert head in done.stdout
     assert "Sphere(0.05)" in done.stdout
     kinds = [line.split() for line in done.stdout.splitlines() if "sphere ~ sphere" in line]
     assert kinds == [["sphere", "~", "sphere", "3"]]
@@ -101,6 +103,30 @@ def test_info(tmp_path):
     chain.write_text(chain_on_a_body())
     assert "shapes: none" in run_cli("info", chain).stdout
     assert "root_x" in run_cli("info", chain, "--floating").stdout
+
+
+def lone_ball() -> str:
+    """Return a ball of radius 0.1 that nothing holds, as URDF text."""
+    joint_to_end = r'  <joint name="swing_0".*?</joint>\n'
+    text = re.sub(joint_to_end, "", saltus.scenes.cradle(1, sways=False, radius=0.1), flags=re.S)
+    return text.replace('  <link name="frame"/>\n', "").replace('xyz="0 0 -1"', 'xyz="0 0 0"')
+
+
+def test_a_robot_is_dropped_on_a_floor_in_one_line(tmp_path):
+    path, out = tmp_path / "ball.urdf", tmp_path / "run.h5"
+    path.write_text(lone_ball())
+    drop = ("--floating", "--floor", "--set", "root_z=0.6")
+    done = run_cli("simulate", path, *drop, "--contact", "0,0.5", "--duration", "1", "--out", out)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    run = saltus.load(out)
+    assert run.column("root_z")[-1] == pytest.approx(0.1, abs=1e-9)
+    assert run.model.default_contact == saltus.ContactProperties(restitution=0, friction=0.5)
+    assert run.model.pair_names == ["ball_0 ~ floor"]
+    info = run_cli("info", path, "--floor", "--floating", "--contact", "0.3,0.5")
+    assert info.stderr == ""
+    assert "default contact: restitution 0.3, friction 0.5" in info.stdout
+    assert_one_line(run_cli("simulate", path, *drop), 0, "ModelWarning", "--contact 0,0.5")
 
 
 def test_info_tells_pairs_of_shapes_from_the_gaps_of_their_parts():
@@ -138,7 +164,7 @@ SIMULATE = ("simulate", CRADLE, "--duration", "1")
         (("info", "nowhere.urdf"), ["nowhere.urdf"]),
         (("simulate", "nowhere.urdf"), ["nowhere.urdf"]),
         ((*SIMULATE, "--set", "elbow=1"), ['no coordinate "elbow"', "swing_0"]),
-        ((*SIMULATE, "--set-velocity", "elbow=1"), ['no coordinate "elbow"']),
+        ((*SIMULATE, "--set-velocity", "elbow=1"), ['no velocity "elbow"']),
         ((*SIMULATE, "--set", "swing_0=much"), ["'much' in 'swing_0=much' is no number"]),
         ((*SIMULATE, "--set", "swing_0"), ["not of the form NAME=VALUE"]),
         ((*SIMULATE, "--set", "swing_0=nan"), ['q["swing_0"] = nan is not finite']),
@@ -153,6 +179,10 @@ SIMULATE = ("simulate", CRADLE, "--duration", "1")
         ((*SIMULATE, "--plot", "run.nonsense"), ["run.nonsense"]),
         ((*SIMULATE, "--plot-impacts", "/nowhere/run.png"), ["/nowhere/run.png"]),
         ((*SIMULATE, "--plot-impacts", "run.nonsense"), ["run.nonsense"]),
+        ((*SIMULATE, "--contact", "0.5"), ["'0.5' is not of the form E,MU", "0,0.5"]),
+        ((*SIMULATE, "--contact", "0,much"), ["'0,much' is not two numbers"]),
+        ((*SIMULATE, "--contact", "1.5,0"), ["'1.5,0'", "restitution 1.5; it is in [0, 1]"]),
+        ((*SIMULATE, "--contact", "0,-1"), ["friction -1"]),
         (("fly",), ["fly"]),
         ((), ["COMMAND"]),
     ],
@@ -181,7 +211,7 @@ def test_a_step_that_fails_is_one_line(tmp_path):
     path = tmp_path / "chain.urdf"
     path.write_text(saltus.scenes.chain(40))
     fast = [part for i in range(40) for part in ("--set-velocity", f"joint_{i}={(-1) ** i * 50}")]
-    done = run_cli("simulate", path, "--h", "0.5", "--duration", "50", *fast)
+    done = run_cli("simulate", path, "--h", "5", "--duration", "50", *fast)
     assert_one_line(done, 1, "t = ")
 
 

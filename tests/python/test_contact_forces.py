@@ -38,7 +38,7 @@ def test_a_block_on_a_slope_is_carried_and_held():
     assert {contact.pair.partition("[")[0] for contact in contacts} == {"block"}
     assert len({contact.pair for contact in contacts}) == len(contacts) <= 4
     weight = 2.0 * G * H
-    assert sum(c.normal for c in contacts) == pytest.approx(weight * np.cos(A), abs=1e-12)
+    assert sum(c.impulse for c in contacts) == pytest.approx(weight * np.cos(A), abs=1e-12)
     held = sum(c.tangential for c in contacts)  # the force uphill, on the block
     np.testing.assert_allclose(held, -weight * np.sin(A) * DOWNHILL, atol=1e-12)
     assert np.abs(state.p).max() < 1e-12
@@ -47,10 +47,10 @@ def test_a_block_on_a_slope_is_carried_and_held():
 def test_a_block_that_slides_is_rubbed_by_mu_times_what_carries_it():
     model = block_on_slope(friction=0.1)
     state, contacts = contacts_after(model, model.state())
-    assert sum(c.normal for c in contacts) == pytest.approx(2.0 * G * H * np.cos(A), abs=1e-12)
+    assert sum(c.impulse for c in contacts) == pytest.approx(2.0 * G * H * np.cos(A), abs=1e-12)
     for contact in contacts:
         size = np.linalg.norm(contact.tangential)
-        assert size == pytest.approx(0.1 * contact.normal, abs=1e-12)
+        assert size == pytest.approx(0.1 * contact.impulse, abs=1e-12)
         np.testing.assert_allclose(contact.tangential, -size * DOWNHILL, atol=1e-12)
     gained = 2.0 * G * (np.sin(A) - 0.1 * np.cos(A)) * 5 * H
     assert state.p[0] == pytest.approx(gained, abs=1e-12)
@@ -59,7 +59,7 @@ def test_a_block_that_slides_is_rubbed_by_mu_times_what_carries_it():
 def test_a_contact_without_friction_has_none():
     model = block_on_slope(friction=0.0)
     _, contacts = contacts_after(model, model.state())
-    assert sum(c.normal for c in contacts) == pytest.approx(2.0 * G * H * np.cos(A), abs=1e-12)
+    assert sum(c.impulse for c in contacts) == pytest.approx(2.0 * G * H * np.cos(A), abs=1e-12)
     assert not any(c.tangential.any() for c in contacts)
 
 
@@ -72,9 +72,9 @@ def test_a_contact_is_printed_with_its_numbers():
     model = puck(restitution=0, friction=0.4)
     _, (contact,) = contacts_after(model, model.state(v={"x": 2.0}), steps=1)
     assert contact.pair == "puck ~ floor"
-    assert contact.normal == pytest.approx(G * H, abs=1e-12)
+    assert contact.impulse == pytest.approx(G * H, abs=1e-12)
     np.testing.assert_allclose(contact.tangential, [-0.4 * G * H, 0, 0], atol=1e-12)
-    assert repr(contact).startswith("ContactImpulse(pair='puck ~ floor', normal=0.098")
+    assert repr(contact).startswith("ContactImpulse(pair='puck ~ floor', impulse=0.098")
 
 
 def oblique(**options) -> saltus.Trajectory:

@@ -33,6 +33,10 @@ PREDICTED = {
     ],
     "cradle_of_thousand": ["at 0.5046 s 999 impulses of 0.9366 N s"],
     "derivatives": ["L_vv[1, 1] = 1.001 kg m^2"],
+    "drop_a_box": [
+        "meets the floor at 0.319275 s",
+        "lies at a height of 0.100000 m, at rest: True",
+    ],
     "fig3": ["the right ball reaches 0.9356 m/s"],
     "galton_board": [
         "1010 pairs: 5 balls with 200 pins and 2 walls each",
@@ -74,6 +78,10 @@ PREDICTED = {
         "one after the other: cue [-0.25, -0.433013]",
         "both at once: cue -0.400000, targets [1.2, -0.69282]",
         "five in a line: unique, A4, at most 10 impulses",
+    ],
+    "where_it_stands": [
+        "the cube slides 0.042 m",
+        "the floor bears at the end at x = 0.114 m",
     ],
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }

@@ -53,7 +53,7 @@ def test_options_of_the_model_are_kept(tmp_path):
     again = saltus.load(tmp_path / "run.h5")
     assert_same(run, again)
     assert again.options.max_impacts == 77
-    assert again.model.n_q == 8
+    assert again.model.n_q == 9
     assert again.model.gravity[2] == -1.62
 
 
@@ -72,6 +72,38 @@ def test_friction_is_kept(tmp_path):
     assert str(again.impact(0)) == str(run.impact(0))
 
 
+def test_contacts_are_kept_where_they_were_recorded(tmp_path):
+    run = saltus.simulate(
+        puck(restitution=0.5, friction=0.2), v={"x": 2.0}, duration=0.5, record_contacts=True
+    )
+    assert len(run.contacts) > 0
+    run.save(tmp_path / "run.h5")
+    again = saltus.load(tmp_path / "run.h5")
+    assert_same(run, again)
+    assert again.contacts.dtype == run.contacts.dtype
+    assert again.contacts.tobytes() == run.contacts.tobytes()
+    assert not again.contacts.flags.writeable
+    rubbed().save(tmp_path / "none.h5")
+    with pytest.raises(saltus.ModelError, match="were not recorded"):
+        _ = saltus.load(tmp_path / "none.h5").contacts
+
+
+def test_files_from_before_there_were_points_are_read(tmp_path):
+    run = rubbed()
+    run.save(tmp_path / "old.h5")
+    known = ["impact", "pair", "lambda", "tangential"]
+    with h5py.File(tmp_path / "old.h5", "a") as file:
+        old = file["impulses"][()][known]
+        del file["impulses"]
+        file["impulses"] = old
+    again = saltus.load(tmp_path / "old.h5")
+    for name in known:
+        np.testing.assert_array_equal(again.impulses[name], run.impulses[name])
+    assert np.isnan(again.impulses["point"]).all()
+    assert np.isnan(again.impact(0).normals).all()
+    assert str(again.impact(0)) == str(run.impact(0))
+
+
 def test_files_from_before_there_was_friction_are_read(tmp_path):
     run = rubbed()
     run.save(tmp_path / "old.h5")
@@ -84,6 +116,9 @@ def test_files_from_before_there_was_friction_are_read(tmp_path):
         np.testing.assert_array_equal(again.impulses[name], run.impulses[name])
     assert again.impulses.dtype == run.impulses.dtype
     assert not again.impulses["tangential"].any()
+    assert np.isnan(again.impulses["point"]).all()
+    assert np.isnan(again.impulses["normal"]).all()
+    assert np.isnan(again.impact(0).points).all()
     assert not again.impulses.flags.writeable
     assert "friction" not in str(again.impact(0))
 

@@ -27,7 +27,7 @@ def test_names_and_lists():
     assert [(pair.a, pair.b) for pair in model.pairs] == [(0, 1), (0, 2), (1, 2)]
     assert model.joints[0].type is saltus.JointType.continuous
     assert (model.joints[0].parent, model.joints[0].child) == ("frame", "gimbal_0")
-    assert model.coordinates[0].angular
+    assert model.coordinates[0].unit == "rad"
     assert model.coordinates[0].upper == math.inf
     np.testing.assert_array_equal(model.gravity, [0, 0, -9.81])
     assert "<robot" in model.source

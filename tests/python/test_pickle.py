@@ -47,6 +47,13 @@ def everything() -> saltus.Model:
             f"hinge_{i}", revolute, parent=f"body_{i}", child=f"arm_{i}", mimic=mimic, **hinge
         )
     builder.add_half_space("floor", (0.01, 0.02, 1), -0.1)
+    builder.add_floor("ice", normal=(0, 0.1, 1), offset=-0.2, restitution=0.1, friction=0.01)
+    builder.add_floor("wall", normal=(1, 0, 0), offset=-9, material="brick")
+    builder.set_contact("steel", "brick", restitution=0.9, friction=0.2)
+    builder.add_body("cube", saltus.Box((0.1, 0.1, 0.1)), density=500, X=saltus.Pose((0, 3, 0)))
+    other = saltus.ModelBuilder("other").set_adjacent_links(saltus.AdjacentLinks.watched)
+    other.add_body("ball", saltus.Sphere(0.1), mass=1, X=saltus.Pose((0, 5, 0)))
+    builder.add(other, "other_")
     builder.add_exclusion("body_0", "body_1").add_body_exclusion("body_2", "ground")
     builder.set_group("body_3", "round").add_group_exclusion("round", "round")
     builder.set_adjacent_links(saltus.AdjacentLinks.watched)

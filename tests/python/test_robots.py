@@ -22,7 +22,6 @@ import saltus
 pin = pytest.importorskip(
     "pinocchio", reason="Pinocchio is not installed: pip install 'saltus[robots]'"
 )
-FREE_BASE = ("x", "y", "z", "yaw", "pitch", "roll")
 TOLERANCE = 1e-12
 
 
@@ -40,7 +39,7 @@ REFUSED = {
 @dataclass(frozen=True)
 class Robot:
     path: str
-    n_q: int
+    n_v: int
     floating: bool = False
     warning: str = "mesh"  # some of what the file has and we do not use
     energy_band: float = 1e-8  # in a free motion of 1 s at h = 1 ms, see below
@@ -111,44 +110,53 @@ def load_pinocchio(name: str):
     if not robot.floating:
         return pin.buildModelFromUrdf(path)
     base = pin.JointModelComposite(pin.JointModelPX())
-    for joint in (pin.JointModelPY, pin.JointModelPZ):
-        base.addJoint(joint())
-    for joint in (pin.JointModelRZ, pin.JointModelRY, pin.JointModelRX):
+    for joint in (pin.JointModelPY, pin.JointModelPZ, pin.JointModelSpherical):
         base.addJoint(joint())
     return pin.buildModelFromUrdf(path, base, "root")
 
 
 class Twin:
-    """Pinocchio's view of one of our models: q_pin = C q + offset, v_pin = C v.
+    """Pinocchio's view of one of our models: v_pin = C v, and q_pin likewise.
 
     Pinocchio is asked to leave mimic joints independent, so that C ties them, not its own code.
+    The angular velocity of its free base is in the body's axes, ours in the world's: C turns it,
+    and since R' w of w alone vanishes, accelerations by the same C.
     """
 
     def __init__(self, name: str) -> None:
         self.ours, self.theirs = load(name), load_pinocchio(name)
         self.data = self.theirs.createData()
         self.mass = sum(inertia.mass for inertia in self.theirs.inertias)
-        self.C = np.zeros((self.theirs.nv, self.ours.n_q))
+        self.constant = np.zeros((self.theirs.nv, self.ours.n_v))
+        self.floating = ROBOTS[name].floating
         self.offset = np.zeros(self.theirs.nv)
         tree = ET.parse(robots_folder() / ROBOTS[name].path)
         mimics = {j.get("name"): j.find("mimic") for j in tree.iterfind("joint")}
         for name_of_joint in self.theirs.names[1:]:
             row = self.theirs.joints[self.theirs.getJointId(name_of_joint)].idx_v
             if name_of_joint == "root":
-                for k, part in enumerate(FREE_BASE):
-                    self.C[row + k, self.ours.coordinate(f"root_{part}")] = 1
+                self.constant[row : row + 6, :6] = np.eye(6)
                 continue
             mimic = mimics[name_of_joint]
             driver = name_of_joint if mimic is None else mimic.get("joint")
             factor = 1.0 if mimic is None else float(mimic.get("multiplier", 1))
             self.offset[row] = 0.0 if mimic is None else float(mimic.get("offset", 0))
-            self.C[row, self.ours.coordinate(driver)] = factor
+            self.constant[row, self.ours.velocity_index(driver)] = factor
+
+    def C(self, q: np.ndarray) -> np.ndarray:
+        out = self.constant.copy()
+        if self.floating:
+            out[3:6, 3:6] = saltus.Pose.from_quaternion(q[3:7]).R.T
+        return out
 
     def configuration(self, q: np.ndarray) -> np.ndarray:
         """Return Pinocchio's q, which for continuous joints is (cos, sin)."""
-        angles, out = self.C @ q + self.offset, np.zeros(self.theirs.nq)
+        moved = self.ours.difference(self.ours.neutral(), q)
+        angles, out = self.constant @ moved + self.offset, np.zeros(self.theirs.nq)
         for joint in self.theirs.joints[1:]:
-            if joint.nq == joint.nv:
+            if joint.nq == 7:  # the free base: quaternions are x y z w in both
+                out[joint.idx_q : joint.idx_q + 7] = q[:7]
+            elif joint.nq == joint.nv:
                 out[joint.idx_q : joint.idx_q + joint.nq] = angles[joint.idx_v :][: joint.nv]
             else:
                 angle = angles[joint.idx_v]
@@ -158,14 +166,14 @@ class Twin:
     def mass_matrix(self, q: np.ndarray) -> np.ndarray:
         M = pin.crba(self.theirs, self.data, self.configuration(q))
         M = np.triu(M) + np.triu(M, 1).T  # only the upper triangle is promised
-        return self.C.T @ M @ self.C
+        return self.C(q).T @ M @ self.C(q)
 
     def inverse_dynamics(self, q: np.ndarray, v: np.ndarray, a: np.ndarray) -> np.ndarray:
-        C = self.C
+        C = self.C(q)
         return C.T @ pin.rnea(self.theirs, self.data, self.configuration(q), C @ v, C @ a)
 
     def gravity(self, q: np.ndarray) -> np.ndarray:
-        return self.C.T @ pin.computeGeneralizedGravity(
+        return self.C(q).T @ pin.computeGeneralizedGravity(
             self.theirs, self.data, self.configuration(q)
         )
 
@@ -175,15 +183,17 @@ class Twin:
 
 def random_configurations(name: str, count: int = 20):
     rng = np.random.default_rng(sum(map(ord, name)))
-    n = load(name).n_q
+    model = load(name)
+    n = model.n_v
     for _ in range(count):
-        yield rng.uniform(-1.4, 1.4, n), rng.uniform(-2, 2, n), rng.uniform(-5, 5, n)
+        q = model.integrate(model.neutral(), rng.uniform(-1.4, 1.4, n))
+        yield q, rng.uniform(-2, 2, n), rng.uniform(-5, 5, n)
 
 
 def assert_close(name: str, ours: np.ndarray, theirs: np.ndarray, bound: np.ndarray) -> None:
     """Name the coordinates that differ by more than TOLERANCE of their bound."""
     wrong = np.abs(ours - theirs) > TOLERANCE * bound
-    names = load(name).coordinate_names
+    names = load(name).velocity_names
     where = ["/".join(names[k] for k in index) for index in np.argwhere(wrong)]
     worst = np.max(np.abs(ours - theirs) / bound)
     assert not where, f"{name}: {', '.join(where[:10])} differ, at worst by {worst:.1e}"
@@ -197,7 +207,7 @@ def test_loads(name):
     robot = ROBOTS[name]
     with pytest.warns(saltus.ModelWarning) as caught:
         model = load_anew(name)
-    assert model.n_q == robot.n_q
+    assert model.n_v == robot.n_v
     assert [str(warning.message) for warning in caught] == model.warnings
     assert any(robot.warning in text for text in model.warnings)
 
@@ -258,18 +268,23 @@ def test_momentum(name):
 def test_gravity(name):
     twin = Twin(name)
     for q, _, _ in random_configurations(name):
-        L_q = twin.ours.lagrangian(q, np.zeros_like(q)).L_q
+        L_q = twin.ours.lagrangian(q, None).L_q
         bound = twin.gravity_bound(twin.mass_matrix(q))
         assert_close(name, -L_q, twin.gravity(q), bound)
 
 
 @each_robot
 def test_inverse_dynamics(name):
-    """d/dt L_v - L_q, with its velocity-dependent terms, is the recursive Newton-Euler force."""
+    """d/dt L_v - L_q, with its velocity-dependent terms, is the recursive Newton-Euler force.
+
+    Of a free base the torque is L_q + w x L_v, since L_q holds w in the world's axes.
+    """
     twin = Twin(name)
     for q, v, a in random_configurations(name):
         L = twin.ours.lagrangian(q, v)
         force = L.L_vv @ a + L.L_vq @ v - L.L_q
+        if twin.floating:
+            force[3:6] -= np.cross(v[3:6], L.L_v[3:6])
         bound = np.abs(L.L_vv) @ np.abs(a) + np.abs(L.L_vq) @ np.abs(v) + np.abs(L.L_q)
         bound += twin.gravity_bound(L.L_vv)
         assert_close(name, force, twin.inverse_dynamics(q, v, a), bound)
@@ -278,7 +293,7 @@ def test_inverse_dynamics(name):
 def free_run(name: str, h: float) -> saltus.Trajectory:
     """Let the robot fall from zero, its joints turning slowly: no motors, limits, contacts."""
     model = load(name)
-    v = 0.5 * np.cos(np.arange(model.n_q))
+    v = 0.5 * np.cos(np.arange(model.n_v))
     return saltus.simulate(model, v=v, duration=1.0, h=h, collisions=False, progress=False)
 
 

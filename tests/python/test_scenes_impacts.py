@@ -98,7 +98,7 @@ def test_a_blow_goes_through_a_thousand_balls():
 
 def test_a_quadruped_stands_and_carries_a_parcel():
     model = saltus.load_urdf(saltus.urdf_dir() / "quadruped.urdf")
-    assert model.n_q == 12
+    assert (model.n_q, model.n_v) == (14, 12)
     assert sum(link.mass for link in model.links) == pytest.approx(8 + 4 * 1 + 2)
     start = state = model.state()
     stepper = saltus.Stepper(model, h=0.01)

@@ -30,6 +30,7 @@ Model Assembly::build() {
   m_.source = d_.source;
   m_.description = std::make_shared<const ModelDescription>(d_);
   add_pairs();
+  warn_of_unsaid_contacts();
   return Model(std::move(m_));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,6 +12,15 @@
 namespace saltus {
 
 inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+/// "restitution 0.5 and friction 0.2".
+std::string in_words(const ContactProperties& properties);
+
+/// Are these two half-spaces one? To 1e-9, [m] for the offset.
+bool same_plane(const Pose& X_WA, const Pose& X_WB);
+
+/// Where a link is that only fixed joints hold to the root; nothing where it may move.
+std::optional<Pose> fixed_pose(const ModelDescription& description, const std::string& link);
 
 class Assembly {
  public:
@@ -61,6 +71,12 @@ class Assembly {
 
   // materials.cpp
   void add_materials();
+  std::vector<std::string> materials_of_links() const;
+
+  // unsaid.cpp
+  void warn_of_unsaid_contacts();  // of free roots that meet half-spaces
+  std::vector<int> flying_links() const;
+  bool is_unsaid(int i, int j) const;  // of two shapes
 
   // pairs.cpp
   void add_shapes();
@@ -83,6 +99,7 @@ class Assembly {
   Pairs excluded_bodies_;                       // links, where neither shape is a half-space
   std::vector<int> collision_group_;            // (links) -1: in none
   Pairs excluded_groups_;
+  std::vector<char> said_;  // (materials * materials) is anything said of this contact?
 };
 
 }  // namespace saltus

@@ -93,7 +93,7 @@ void Assembly::add_masses() {
 // Bodies with possible moments have possible ones when welded, so some link is to blame where the
 // sum has none.
 void Assembly::check_moments() {
-  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+  for (std::size_t i = 1; i < d_.links.size(); ++i) {  // the root cannot move
     const std::string wrong = impossible_moments(d_.links[i].inertia);
     if (wrong.empty()) continue;
     const std::string text = "link " + quoted(d_.links[i].name) + " has " + wrong;

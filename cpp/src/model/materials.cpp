@@ -6,7 +6,6 @@
 #include "model/assembly.hpp"
 
 namespace saltus {
-namespace {
 
 void check_properties(const ContactProperties& p, const std::string& between) {
   std::ostringstream text;
@@ -20,7 +19,11 @@ void check_properties(const ContactProperties& p, const std::string& between) {
   throw ModelError("the contact between " + between + " has " + text.str(), "contact", between);
 }
 
-}  // namespace
+std::string in_words(const ContactProperties& properties) {
+  std::ostringstream text;
+  text << "restitution " << properties.restitution << " and friction " << properties.friction;
+  return text.str();
+}
 
 ModelBuilder& ModelBuilder::set_material(const std::string& link, const std::string& material) {
   if (material.empty()) {
@@ -44,36 +47,68 @@ ModelBuilder& ModelBuilder::set_contact(const std::string& material_a,
   return *this;
 }
 
+std::vector<std::string> Assembly::materials_of_links() const {
+  std::vector<std::string> materials(d_.links.size());
+  for (const auto& [link, material] : d_.materials.of_link) {
+    const std::string user = "material " + quoted(material) + " is given to";
+    for (const ShapeSpec& shape : d_.shapes) {
+      if (shape.name != link || link_.count(link) > 0) continue;
+      throw ModelError(user + " half-space " + quoted(link) +
+                           ", not to a link; add_floor(material=...) gives it one",
+                       "material", material);
+    }
+    materials[link_index(link, user, "material", material)] = material;
+  }
+  return materials;
+}
+
 void Assembly::add_materials() {
+  using Own = std::optional<ContactProperties>;
   const MaterialSpec& given = d_.materials;
   MaterialTable& table = m_.materials;
-  const auto find = [&](const std::string& name) {
-    const auto at = std::find(table.names.begin(), table.names.end(), name);
-    return static_cast<std::size_t>(at - table.names.begin());
+  std::vector<Own> own(1);  // (rows) of floors that have properties
+  const auto row_of = [&](const std::string& name, const Own& contact) {
+    std::size_t row = 0;
+    while (row < own.size() && !(table.names[row] == name && own[row] == contact)) ++row;
+    if (row == own.size()) {
+      table.names.push_back(name);
+      own.push_back(contact);
+    }
+    return static_cast<int>(row);
   };
-  std::vector<int> of_link(d_.links.size(), 0);
-  for (const auto& [link, material] : given.of_link) {
-    const std::size_t index = find(material);
-    if (index == table.names.size()) table.names.push_back(material);
-    const std::string user = "material " + quoted(material) + " is given to";
-    of_link[link_index(link, user, "material", material)] = static_cast<int>(index);
+  const std::vector<std::string> of_link = materials_of_links();
+  for (const auto& [link, material] : given.of_link) row_of(material, {});
+  for (const ShapeSpec& shape : d_.shapes) {
+    const std::string& name =
+        shape.material.empty() ? of_link[link_.at(shape.link)] : shape.material;
+    table.of_shape.push_back(row_of(name, shape.contact));
   }
-  for (const PlacedShape& shape : m_.shapes) table.of_shape.push_back(of_link[shape.link]);
-
-  const std::size_t k = table.names.size();
-  table.contact.assign(k * k, given.standard);
+  const std::set<std::string> known(table.names.begin(), table.names.end());
   for (const auto& [pair, properties] : given.contact) {
     for (const std::string& name : {pair.first, pair.second}) {
-      if (find(name) < k && !name.empty()) continue;
-      const std::vector<std::string> known(table.names.begin() + 1, table.names.end());
+      if (!name.empty() && known.count(name) > 0) continue;
+      const std::vector<std::string> names(std::next(known.begin()), known.end());  // without ""
       throw ModelError("a contact names material " + quoted(name) +
                            ", which no link has; materials are " +
-                           (known.empty() ? "none" : list_names(known)),
+                           (names.empty() ? "none" : list_names(names)),
                        "material", name);
     }
-    const std::size_t a = find(pair.first), b = find(pair.second);
-    table.contact[a * k + b] = table.contact[b * k + a] = properties;
   }
+  std::vector<ContactProperties> contact;
+  // What is said first holds: of two materials, of the floor, of all. No two floors ever meet.
+  const std::size_t k = table.names.size();
+  for (std::size_t a = 0; a < k; ++a) {
+    for (std::size_t b = 0; b < k; ++b) {
+      const auto pair = given.contact.find(std::minmax(table.names[a], table.names[b]));
+      const Own of_floor = own[a] ? own[a] : own[b];
+      const Own said = pair != given.contact.end() ? Own(pair->second)
+                       : of_floor                  ? of_floor
+                                                   : given.standard;
+      said_.push_back(said.has_value());
+      contact.push_back(said.value_or(ContactProperties{}));
+    }
+  }
+  table.contact = std::move(contact);
 }
 
 }  // namespace saltus

@@ -30,8 +30,8 @@ void set_by_name(const std::map<std::string, double>& values, const std::string&
                  const std::vector<std::string>& names, VecX& x) {
   for (const auto& [name, value] : values) {
     if (!std::isfinite(value)) {
-      throw ModelError(kind + " \"" + name + "\" = " + std::to_string(value) + " is not finite", kind,
-                       name);
+      throw ModelError(kind + " \"" + name + "\" = " + std::to_string(value) + " is not finite",
+                       kind, name);
     }
     x[index_of(names, kind, name)] = value;
   }

@@ -1,6 +1,5 @@
 #include "saltus/model/model_builder.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,15 +8,6 @@
 
 namespace saltus {
 namespace {
-
-void check_solid(const char* kind, double mass, const std::vector<double>& sizes) {
-  const auto fits = [](double x) { return x > 0 && std::isfinite(x); };
-  if (fits(mass) && std::all_of(sizes.begin(), sizes.end(), fits)) return;
-  std::ostringstream text;
-  text << "a " << kind << " of mass " << mass << " and size";
-  for (const double size : sizes) text << " " << size;
-  throw ModelError(text.str() + "; all are finite and positive");
-}
 
 std::string show(const Vec3& x) {
   std::ostringstream text;
@@ -67,28 +57,6 @@ void check_inertia(const BodyInertia& inertia, const std::string& link) {
     fail("an inertia matrix that is not symmetric");
   }
   if (inertia.mass == 0 && size > 0) fail("an inertia but no mass");
-}
-
-BodyInertia solid_sphere(double mass, double radius) {
-  check_solid("solid sphere", mass, {radius});
-  return {mass, Vec3::Zero(), 0.4 * mass * radius * radius * Mat3::Identity()};
-}
-
-BodyInertia solid_box(double mass, const Vec3& half) {
-  check_solid("solid box", mass, {half.x(), half.y(), half.z()});
-  const Vec3 s = mass / 3 * half.cwiseAbs2();
-  BodyInertia body{mass, Vec3::Zero(), Mat3::Zero()};
-  body.I_J.diagonal() << s.y() + s.z(), s.x() + s.z(), s.x() + s.y();
-  return body;
-}
-
-BodyInertia solid_cylinder(double mass, double radius, double half_length) {
-  check_solid("solid cylinder", mass, {radius, half_length});
-  const double along = 0.5 * mass * radius * radius;
-  const double across = along / 2 + mass / 3 * half_length * half_length;
-  BodyInertia body{mass, Vec3::Zero(), Mat3::Zero()};
-  body.I_J.diagonal() << across, across, along;
-  return body;
 }
 
 ModelBuilder::ModelBuilder(std::string name, std::string root) {
@@ -167,6 +135,7 @@ ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& 
          << offset << "; both are finite, and the normal is not zero";
     throw ModelError(text.str(), "half_space", name);
   }
+  if (name.empty()) throw ModelError("a half-space has no name", "half_space", name);
   for (const ShapeSpec& shape : d_.shapes) {
     if (shape.name == name) {
       throw ModelError("two half-spaces are named " + quoted(name), "half_space", name);

@@ -12,6 +12,11 @@ void Assembly::add_shapes() {
     const int link =
         link_index(spec.link, "a " + shape_name(spec.shape) + " is put on", "link", spec.link);
     const Place& place = place_[link];
+    if (std::holds_alternative<HalfSpace>(spec.shape) && place.joint >= 0) {
+      throw ModelError("link " + quoted(spec.link) + " carries half-space " + quoted(spec.name) +
+                           " and moves; half-spaces are fixed to the world",
+                       "link", spec.link);
+    }
     std::string name = spec.name.empty() ? spec.link : spec.name;
     if (const int k = ++count[name]; k > 1) name.append("#").append(std::to_string(k));
     m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});

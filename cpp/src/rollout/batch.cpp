@@ -185,17 +185,23 @@ int count_threads(int asked, std::size_t runs) {
 
 BatchTrajectory simulate_batch(const Model& model, std::span<const State> starts, double duration,
                                const BatchOptions& options) {
-  const Plan plan = make_plan(duration, options.run);
+  BatchTrajectory out{model, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  simulate_batch(model, starts, duration, options, out);
+  return out;
+}
+
+void simulate_batch(const Model& model, std::span<const State> starts, double duration,
+                    const BatchOptions& options, BatchTrajectory& out) {
+  Plan plan = make_plan(duration, options.run);
   const int threads = count_threads(options.threads, starts.size());
   check_starts(model, starts);
   check_memory(model, plan, static_cast<Eigen::Index>(starts.size()));
   Stepper(model, plan.step);  // refuses its options here and not in a thread
-  BatchTrajectory out = empty_batch(model, plan, starts);
+  out = empty_batch(model, plan, starts);
   Crew crew(plan, starts, options.on_failure, out);
   crew.start(threads);
   crew.wait(options.run.progress);
   if (options.run.progress && !crew.stopped()) options.run.progress(1);
-  return out;
 }
 
 }  // namespace saltus

@@ -88,6 +88,9 @@ BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<cons
   for (MatX* x : {&out.v, &out.p}) x->setConstant(runs * plan.rows, model.n_v(), nan);
   for (MatX* x : {&out.kinetic, &out.potential, &out.shadow}) x->setConstant(runs, plan.rows, nan);
   out.outcome.resize(starts.size());
+  for (RunOutcome& each : out.outcome) {
+    if (plan.record_contacts) each.contacts.emplace();
+  }
   for (Eigen::Index i = 0; i < runs; ++i) {
     out.q.row(i * plan.rows) = starts[i].q;
     out.p.row(i * plan.rows) = starts[i].p;

@@ -46,9 +46,13 @@ void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows
 void take_outcome(RunOutcome&& outcome, Trajectory& run) {
   run.impacts = std::move(outcome.impacts);
   run.impulses = std::move(outcome.impulses);
-  run.friction = std::move(outcome.friction);
   run.settlings = std::move(outcome.settlings);
   run.certificates = std::move(outcome.certificates);
+  run.contacts = std::move(outcome.contacts);
+  if (run.contacts) {
+    std::erase_if(*run.contacts,
+                  [&](const RecordedContact& each) { return each.row >= outcome.rows; });
+  }
   run.iterations = outcome.iterations;
   run.residual = outcome.residual;
   run.complete = outcome.complete;

@@ -24,6 +24,7 @@ struct Rows {
 
 void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows& rows);
 
+/// Contacts of steps after the last row are left out.
 void take_outcome(RunOutcome&& outcome, Trajectory& run);
 
 /// As Trajectory::energy_error; both are (rows).

@@ -7,6 +7,9 @@
 namespace saltus {
 namespace {
 
+/// Asking the machine for more may well succeed and end in the kernel's killing the program.
+constexpr double most_gigabytes = 16;
+
 void check_numbers(double duration, const SimulateOptions& options) {
   std::ostringstream text;
   if (!(options.h > 0) || !std::isfinite(options.h)) {
@@ -56,16 +59,31 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
     outcome.impacts.push_back(impact);
   }
   outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
-  for (TangentialImpulse each : report.friction) {
-    each.impulse += shift;
-    outcome.friction.push_back(each);
-  }
   outcome.settlings.insert(outcome.settlings.end(), report.settlings.begin(),
                            report.settlings.end());
   outcome.certificates.insert(outcome.certificates.end(), report.certificates.begin(),
                               report.certificates.end());
   outcome.iterations += report.iterations;
   outcome.residual = std::max(outcome.residual, report.residual);
+}
+
+/// Of a step that ends at t. Needs the outcome of the steps before it.
+void add_contacts(const StepReport& report, double t, const Plan& plan, RunOutcome& outcome) {
+  std::vector<RecordedContact>& all = *outcome.contacts;
+  int index = static_cast<int>(outcome.impacts.size());
+  for (const Impact& impact : report.impacts) {
+    for (int i = impact.first; i < impact.first + impact.count; ++i) {
+      all.push_back({outcome.rows, impact.t, index, report.impulses[i]});
+    }
+    ++index;
+  }
+  for (const ContactImpulse& each : report.contacts) all.push_back({outcome.rows, t, -1, each});
+  if (static_cast<double>(all.size()) <= plan.most_contacts) return;
+  std::ostringstream text;
+  text << all.size() << " recorded contacts by t = " << t << " s are more than the "
+       << static_cast<std::size_t>(plan.most_contacts) << " that a run has room for in "
+       << most_gigabytes << " GB; make runs shorter, or record no contacts (record_contacts)";
+  throw ModelError(text.str());
 }
 
 }  // namespace
@@ -76,6 +94,7 @@ Plan make_plan(double duration, const SimulateOptions& options) {
   Plan plan;
   plan.steps = count_steps(duration, options);
   plan.record_every = options.record_every;
+  plan.record_contacts = options.record_contacts;
   plan.rows = (plan.steps + options.record_every - 1) / options.record_every + 1;
   plan.step = options.step;
   plan.step.h = options.h;
@@ -84,11 +103,11 @@ Plan make_plan(double duration, const SimulateOptions& options) {
   return plan;
 }
 
-void check_memory(const Model& model, const Plan& plan, Eigen::Index runs) {
-  // Asking the machine for more may well succeed and end in the kernel's killing the program.
-  constexpr double most_gigabytes = 16;
+void check_memory(const Model& model, Plan& plan, Eigen::Index runs) {
   const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
   const double gigabytes = doubles * (4 + model.n_q() + 2 * model.n_v()) * 8e-9;
+  const double bytes = static_cast<double>(runs) * sizeof(RecordedContact);  // one contact a run
+  plan.most_contacts = (most_gigabytes - gigabytes) * 1e9 / bytes;
   if (gigabytes <= most_gigabytes) return;
   std::ostringstream text;
   if (runs > 1) text << runs << " runs of ";
@@ -110,6 +129,7 @@ VecX row_times(const Plan& plan, double t0) {
 void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
          Stepper& stepper, EnergyMeter& meter, Rows rows, RunOutcome& outcome) {
   stepper.forget();
+  if (plan.record_contacts) outcome.contacts.emplace();
   State state = start;
   state.q = model.checked_q(start.q, "state.q");
   measure(*model, state, plan.step.h, meter);
@@ -117,6 +137,10 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
   long k = 0;
   for (; k < plan.steps && go_on(k); ++k) {
     stepper.step(state);
+    if (plan.record_contacts) {
+      const double t = start.t + static_cast<double>(k + 1) * plan.step.h;
+      add_contacts(stepper.report(), t, plan, outcome);
+    }
     add_report(stepper.report(), outcome);
     if ((k + 1) % plan.record_every != 0 && k + 1 != plan.steps) continue;
     measure(*model, state, plan.step.h, meter);

@@ -15,14 +15,17 @@ struct Plan {
   StepOptions step;
   long steps = 0;
   int record_every = 1;
-  Eigen::Index rows = 0;  ///< the start, every n-th step and the last
+  bool record_contacts = false;
+  double most_contacts = 0;  ///< that a run may record, written by check_memory
+  Eigen::Index rows = 0;     ///< the start, every n-th step and the last
 };
 
 /// @throws ModelError on numbers that make no run
 Plan make_plan(double duration, const SimulateOptions& options);
 
-/// @throws ModelError where `runs` runs would take more than 16 GB
-void check_memory(const Model& model, const Plan& plan, Eigen::Index runs);
+/// @throws ModelError where the rows of `runs` runs would take more than 16 GB. What they leave is
+/// shared out to contacts, whose number shows as they come.
+void check_memory(const Model& model, Plan& plan, Eigen::Index runs);
 
 /// Times of the rows, (rows) [s]: t0 + k h, not the sum of k times h, so that they are round.
 VecX row_times(const Plan& plan, double t0);

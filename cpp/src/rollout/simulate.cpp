@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "rollout/run.hpp"
 
@@ -40,7 +41,14 @@ class Progress {
 
 Trajectory simulate(const Model& model, const State& start, double duration,
                     const SimulateOptions& options) {
-  const Plan plan = make_plan(duration, options);
+  Trajectory out = empty_trajectory(model, 0);
+  simulate(model, start, duration, options, out);
+  return out;
+}
+
+void simulate(const Model& model, const State& start, double duration,
+              const SimulateOptions& options, Trajectory& out) {
+  Plan plan = make_plan(duration, options);
   Stepper stepper(model, plan.step);
   EnergyMeter meter(*model);
   Progress progress(options.progress);
@@ -48,19 +56,31 @@ Trajectory simulate(const Model& model, const State& start, double duration,
   model.checked_q(start.q, "state.q");
   check_vector(start.p, model.n_v(), "state.p", "velocities");
   check_memory(model, plan, 1);
-  Trajectory out = empty_trajectory(model, plan.rows);
+  out = empty_trajectory(model, plan.rows);
   out.options = plan.step;
   out.t = row_times(plan, start.t);
+  out.q.row(0) = start.q;  // what is known of a start that cannot be measured
+  out.p.row(0) = start.p;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  out.v.row(0).setConstant(nan);
+  out.kinetic[0] = out.potential[0] = out.shadow[0] = nan;
   const auto go_on = [&](long k) {
     return progress.go_on(static_cast<double>(k) / static_cast<double>(plan.steps));
   };
   RunOutcome outcome;
-  run(model, plan, start, go_on, stepper, meter,
-      {out.q, out.v, out.p, out.kinetic, out.potential, out.shadow}, outcome);
-  if (outcome.rows != plan.rows) truncate(out, outcome.rows);
-  take_outcome(std::move(outcome), out);
+  const auto keep = [&] {
+    if (outcome.rows != plan.rows) truncate(out, outcome.rows);
+    take_outcome(std::move(outcome), out);
+  };
+  try {
+    run(model, plan, start, go_on, stepper, meter,
+        {out.q, out.v, out.p, out.kinetic, out.potential, out.shadow}, outcome);
+  } catch (...) {
+    keep();
+    throw;
+  }
+  keep();
   if (out.complete) progress.go_on(1);
-  return out;
 }
 
 }  // namespace saltus

@@ -100,12 +100,7 @@ void add_links_and_joints(const Document& document, const urdf::ModelInterface& 
                           ModelBuilder& builder) {
   for (const XMLElement* e : document.all("link")) {
     const std::string name = attribute(*e, "name");
-    const LinkSpec link{name, inertia(*parsed.getLink(name))};
-    if (name != fixed_link) {
-      builder.add_link(link);
-    } else {
-      check_inertia(link.inertia, name);  // the builder has this link already, without inertia
-    }
+    if (name != fixed_link) builder.add_link({name, inertia(*parsed.getLink(name))});
   }
   for (const XMLElement* e : document.all("joint")) {
     const urdf::Joint& joint = *parsed.getJoint(attribute(*e, "name"));
@@ -114,6 +109,27 @@ void add_links_and_joints(const Document& document, const urdf::ModelInterface& 
   for (const XMLElement* e : document.all("link")) {
     add_shapes(*e, *parsed.getLink(attribute(*e, "name")), meshes, builder);
   }
+}
+
+/// The root link as the file has it: its mass counts where the robot is put on what moves.
+LinkSpec root_link(const Document& document, const urdf::ModelInterface& parsed,
+                   const std::string& name) {
+  if (document.find("link", name) == nullptr) return {name, {}};
+  const LinkSpec link{name, inertia(*parsed.getLink(name))};
+  check_inertia(link.inertia, name);
+  return link;
+}
+
+/// The plane z = 0, unless the file has it.
+void add_floor(const Document& document, ModelBuilder& builder) {
+  for (const ShapeSpec& shape : builder.description().shapes) {
+    const Vec3 normal = shape.X_LG.R.col(2);
+    if (std::holds_alternative<HalfSpace>(shape.shape) && normal == Vec3::UnitZ() &&
+        shape.X_LG.p.z() == 0) {
+      return;
+    }
+  }
+  builder.add_floor({.name = unused_name(document, "half_space", "floor")});
 }
 
 /// Runs what the floor below may refuse, and tells the place in the file if it does.
@@ -139,7 +155,11 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   const bool is_fixed = options.root_joint == JointType::fixed;
   const std::string world = is_fixed ? root : unused_name(document, "link", "world");
   const std::string name = attribute(document.robot(), "name");
-  ModelBuilder builder(name.empty() ? "model" : name, world);
+  ModelDescription empty;
+  empty.name = name.empty() ? "model" : name;
+  empty.root = world;
+  located(document, [&] { empty.links = {root_link(document, *parsed, world)}; });
+  ModelBuilder builder(std::move(empty));
   builder.set_gravity(options.gravity).set_solver(options.solver).set_source(source.text);
   for (const std::string& warning : warnings) builder.add_warning(warning);
   const MeshFolders folders{source.folder, options.package_dirs};
@@ -151,6 +171,8 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   meshes.warn(builder);
   warn_of_visuals(document, folders, builder);
   add_extension(document, builder);
+  if (options.contact) builder.set_default_contact(*options.contact);
+  if (options.floor) add_floor(document, builder);
   if (options.srdf) add_srdf(*options.srdf, document, builder);
   located(document, [&] { builder.check(); });
   return builder;

@@ -167,8 +167,8 @@ Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s) {
 }
 
 bool is_converged(double residual, double before) {
-  // 32 eps: sums of a few terms each round by eps; what is left at convergence is about 2 eps
-  constexpr double floor = 32 * std::numeric_limits<double>::epsilon();
+  // 8 eps: sums of a few terms each round by eps; what is left at convergence is about 2 eps
+  constexpr double floor = 8 * std::numeric_limits<double>::epsilon();
   // above this a stalled iteration is a failure, below it rounding (long chains sum many terms)
   constexpr double rounding = 1e-11;
   return residual <= floor || (residual <= rounding && residual > before / 4);

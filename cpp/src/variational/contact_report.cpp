@@ -1,22 +1,30 @@
 #include "variational/contact_report.hpp"
 
-#include <algorithm>
-
 #include "variational/slip_blocks.hpp"
 
 namespace saltus {
 namespace {
 
-void tell(int pair, double lambda, const Vec3& p_W, StepReport& report) {
-  if (lambda == 0 && p_W.isZero(0)) return;
-  const auto known = std::find_if(report.contacts.begin(), report.contacts.end(),
-                                  [&](const ContactImpulse& each) { return each.pair == pair; });
-  if (known == report.contacts.end()) {
-    report.contacts.push_back({pair, lambda, p_W});
-  } else {
-    known->lambda += lambda;
-    known->p_W += p_W;
+/// Adds an impulse to what is known of its pair. The moment of the sum is that of its parts where
+/// the normal is the same (and the friction in proportion): of what slides on a plane, for
+/// instance.
+void add(const ContactImpulse& more, ContactImpulse& known) {
+  const double lambda = known.lambda + more.lambda;
+  known.p_W += more.p_W;
+  if (lambda > 0) {
+    const double part = more.lambda / lambda;
+    known.point_W += part * (more.point_W - known.point_W);
+    known.n_W = (known.n_W + part * (more.n_W - known.n_W)).normalized();
   }
+  known.lambda = lambda;
+}
+
+void tell(const ContactImpulse& impulse, StepReport& report) {
+  if (impulse.lambda == 0 && impulse.p_W.isZero(0)) return;
+  for (ContactImpulse& known : report.contacts) {
+    if (known.pair == impulse.pair) return add(impulse, known);
+  }
+  report.contacts.push_back(impulse);
 }
 
 }  // namespace
@@ -25,15 +33,14 @@ void tell_holds(const Node& node, Flight& f, StepReport& report) {
   for (int i = 0; i < f.active; ++i) {
     const ArcConstraint& c = f.constraints[i];
     if (c.kind != ArcConstraint::Kind::hold) continue;
+    const Contact& contact = contact_of(node, c);
     const Vec3 p = impulse_of(c);
-    tell(node.pool.number(c.place), p[0], across(contact_of(node, c), p), report);
+    tell(acted(node, contact, p[0], across(contact, p)), report);
   }
 }
 
 void tell_closing(Node& node, StepReport& report) {
-  for (const ContactImpulse& each : node.closing) {
-    tell(node.pool.number(each.pair), each.lambda, each.p_W, report);
-  }
+  for (const ContactImpulse& each : node.closing) tell(each, report);
   node.closing.clear();
 }
 

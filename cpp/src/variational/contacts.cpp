@@ -90,6 +90,7 @@ void write_contact(const ModelData& model, const StepOptions& options, double sp
   c.phi = g.phi;
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
+  c.point_W = contact_point(g);
   const ContactProperties& properties = model.materials.between(pair.a, pair.b);
   c.restitution = properties.restitution;
   c.friction = properties.friction;

@@ -66,24 +66,33 @@ void apply_impulses(Node& node) {
   }
 }
 
-void tell(const Node& node, ImpactLaw law, bool fallback, StepReport& report) {
+/// The impact of all impulses in the report from `first` on.
+void tell_impact(const Node& node, int first, ImpactLaw law, bool fallback, StepReport& report) {
+  const int count = static_cast<int>(report.impulses.size()) - first;
+  report.impacts.push_back({node.t, first, count, node.touching, law, fallback});
+}
+
+void tell_reflections(const Node& node, ImpactLaw law, StepReport& report) {
   const int first = static_cast<int>(report.impulses.size());
   for (const Impulse& impulse : node.impulses) {
-    const int pair = node.contacts[impulse.pair].pair;
-    report.impulses.push_back({node.pool.number(pair), impulse.lambda});
+    const Contact& c = node.contacts[impulse.pair];
+    report.impulses.push_back(acted(node, c, impulse.lambda, Vec3::Zero()));
   }
-  const int count = static_cast<int>(node.impulses.size());
-  report.impacts.push_back({node.t, first, count, node.touching, law, fallback});
+  tell_impact(node, first, law, false, report);
 }
 
 /// What friction takes is not known before: no energy is there to be matched, and every law is
 /// nodal_energy.
 bool resolve_with_friction(const ModelData& model, const StepOptions& options, Node& node,
                            StepReport& report) {
-  node.impulses.clear();
-  if (!collide_at_node(model, {options.order, options.max_impulses}, node, report)) return false;
+  if (!collide_at_node(model, {options.order, options.max_impulses}, node)) return false;
+  const int first = static_cast<int>(report.impulses.size());
+  for (const FrictionImpulse& each : node.friction.impulses) {
+    const Contact& c = node.contacts[each.contact];
+    report.impulses.push_back(acted(node, c, each.p[0], across(c, each.p)));
+  }
   constexpr ImpactLaw law = ImpactLaw::nodal_energy;
-  tell(node, law, options.law != law, report);
+  tell_impact(node, first, law, options.law != law, report);
   // certificates are of reflections; with friction the order is a convention
   if (options.certify) report.certificates.push_back(node.touching > 1 ? "order_dependent" : "");
   settle_velocities(model, options, node);
@@ -117,7 +126,7 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
     apply_impulses(node);
     if (options.law != ImpactLaw::nodal_energy) prepare_launch(energy, node);
   }
-  tell(node, options.law, false, report);
+  tell_reflections(node, options.law, report);
   if (options.certify) report.certificates.push_back(certify(node));
   settle_velocities(model, options, node);
   return true;

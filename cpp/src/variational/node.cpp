@@ -181,7 +181,7 @@ void settle_held_contacts(const ModelData& model, Node& node) {
   }
   for (int i = 0; i < count; ++i) {
     apply(node, held[i], lambda[i]);
-    node.closing.push_back({node.contacts[held[i]].pair, lambda[i], Vec3::Zero()});
+    node.closing.push_back(acted(node, node.contacts[held[i]], lambda[i], Vec3::Zero()));
   }
   refresh_motions(node);
 }

@@ -28,7 +28,8 @@ struct Contact {
   double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
   double restitution = 1, friction = 0;
-  Vec3 n_W, p_WB;        ///< [m] normal, witness on b
+  Vec3 n_W;              ///< from b to a
+  Vec3 p_WB, point_W;    ///< [m] witness on b; where the two touch, see contact_point
   ContactVector n;       ///< phi_q
   ContactVector column;  ///< M^-1 n, written by the impact
   // where friction > 0
@@ -72,7 +73,7 @@ struct Node {
   CascadeScratch cascade;
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
-  std::vector<ContactImpulse> closing;  ///< of held contacts, until told; `pair` by place
+  std::vector<ContactImpulse> closing;  ///< of held contacts, until told
   std::vector<int> silent;              ///< pairs with an entry in `sunk`
   std::vector<int> rested;              ///< pairs that rested at the node before
   double total_mass = 0;
@@ -105,6 +106,11 @@ void classify(const Node& node, double speed, double relative, Contact& c);
 /// The friction of an impulse (lambda, beta) at a contact, in the world.
 inline Vec3 across(const Contact& c, const Vec3& p) {
   return c.friction > 0 ? Vec3(p[1] * c.t_W[0] + p[2] * c.t_W[1]) : Vec3(Vec3::Zero());
+}
+
+/// An impulse at a contact for the report, by the pair's number.
+inline ContactImpulse acted(const Node& node, const Contact& c, double lambda, const Vec3& p_W) {
+  return {node.pool.number(c.pair), lambda, p_W, c.point_W, c.n_W};
 }
 
 /// A speed of the whole model, [m/s].
@@ -147,10 +153,9 @@ void set_tangents(const ModelData& model, const Gap& gap, const Pair& pair, Node
 /// True where some pair that touches has friction.
 bool has_friction(const Node& node);
 
-/// The impact with friction: changes p and v, appends to node.impulses and report.friction.
+/// The impact with friction: changes p and v, writes node.friction.impulses.
 /// @return false when it does not end
-bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node,
-                     StepReport& report);
+bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node);
 
 /// settle_held_contacts with friction: likewise of the sliding of those that stick. Changes p, v.
 /// @return false, and nothing changed, where no contact that is held has friction

@@ -90,8 +90,7 @@ bool has_friction(const Node& node) {
   return false;
 }
 
-bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node,
-                     StepReport& report) {
+bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node) {
   FrictionScratch& s = node.friction;
   s.contact.clear();
   for (int i = 0; i < node.touching; ++i) s.contact.push_back(i);
@@ -99,12 +98,7 @@ bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node
   s.impulses.clear();
   if (!collide(s.W, options, s.pile, s.u, s.p, s.impulses)) return false;
   for (const FrictionImpulse& each : s.impulses) {
-    const Contact& c = node.contacts[each.contact];
-    apply(c, each.p, node);
-    node.impulses.push_back({each.contact, each.p[0]});
-    if (c.friction == 0) continue;
-    report.friction.push_back(
-        {static_cast<int>(report.impulses.size() + node.impulses.size()) - 1, across(c, each.p)});
+    apply(node.contacts[each.contact], each.p, node);
   }
   return true;
 }
@@ -136,7 +130,7 @@ bool settle_with_friction(const ModelData& model, Node& node) {
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
     const Contact& c = node.contacts[s.contact[i]];
     apply(c, s.p[i], node);
-    node.closing.push_back({c.pair, s.p[i][0], across(c, s.p[i])});
+    node.closing.push_back(acted(node, c, s.p[i][0], across(c, s.p[i])));
   }
   return true;
 }

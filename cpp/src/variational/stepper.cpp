@@ -59,7 +59,6 @@ void Stepper::Impl::step(State& state) {
   report.residual = report.friction_residual = node.friction.residual = 0;
   report.impacts.clear();
   report.impulses.clear();
-  report.friction.clear();
   report.contacts.clear();
   node.closing.clear();
   report.settlings.clear();

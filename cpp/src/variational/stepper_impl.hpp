@@ -18,7 +18,6 @@ struct Stepper::Impl {
     last.p.setZero(model.n_v());
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
-    if (node.friction.any) report.friction.reserve(1024);
     report.settlings.reserve(64);
     report.contacts.reserve(64);
   }

@@ -56,5 +56,42 @@ TEST(UrdfMaterials, MistakesAreNamed) {
   expect("<contact bounce=\"1\"/>", "unknown attribute, bounce");
 }
 
+TEST(UrdfMaterials, OptionsSetTheDefaultContactAndAddAFloor) {
+  const std::string fall = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+  const std::string lone = ball_link("a", fall);
+  UrdfOptions options;
+  options.root_joint = JointType::floating;
+  options.floor = true;
+  const ContactProperties said{0.2, 0.6};
+  EXPECT_EQ(load_urdf(robot(lone), options).build()->warnings.size(), 1u);
+  options.contact = said;
+  const Model model = load_urdf(robot(lone), options).build();
+  EXPECT_TRUE(model->warnings.empty());
+  EXPECT_EQ(between(model, "a ~ floor"), said);
+  // the file's default gives way, its floor and its contacts of materials stay
+  const Model file = load_urdf(robot(lone + "<saltus><half_space name=\"ground\"/>"
+                                            "<material name=\"steel\" links=\"a\"/>"
+                                            "<contact restitution=\"0.9\"/></saltus>"),
+                               options)
+                         .build();
+  ASSERT_EQ(file->pairs.size(), 1);
+  EXPECT_EQ(between(file, "a ~ ground"), said);
+  const Model lower =
+      load_urdf(robot(lone + "<saltus><half_space name=\"floor\" offset=\"-1\"/></saltus>"),
+                options)
+          .build();
+  EXPECT_EQ(between(lower, "a ~ floor_"), said);
+}
+
+TEST(UrdfMaterials, TheMassOfTheRootCountsWhereItRides) {
+  ModelBuilder builder;
+  builder.add_body({.name = "cart", .shape = Sphere{1}, .mass = 1});
+  const ModelBuilder base = load_urdf(robot(ball_link("base", "")));
+  const double mass = base.description().links[0].inertia.mass;
+  ASSERT_GT(mass, 0);
+  const Model model = builder.add(base.description(), {.parent = "cart"}).build();
+  EXPECT_DOUBLE_EQ(model.mass_matrix(model.state().q)(0, 0), 1 + mass);
+}
+
 }  // namespace
 }  // namespace saltus

@@ -98,9 +98,7 @@ TEST(Friction, ASpinningBallThatIsDroppedGetsTheSpeedOfTheClosedForm) {
       const double sticks = 2. / 7 * r * w, slides = mu * (1 + e) * v_n;
       const double v = std::abs(sticks) <= slides ? sticks : std::copysign(slides, w);
       EXPECT_NEAR(model.velocity(after)[0], v, 1e-13);
-      ASSERT_EQ(report.friction.size(), 1u);
-      EXPECT_EQ(report.friction[0].impulse, 0);
-      EXPECT_LE((report.friction[0].p_W - Vec3(v, 0, 0)).norm(), 1e-13);
+      EXPECT_LE((report.impulses[0].p_W - Vec3(v, 0, 0)).norm(), 1e-13);
     }
   }
 }

@@ -16,7 +16,7 @@ namespace saltus {
 
 struct LinkSpec {
   std::string name;
-  BodyInertia inertia = {};  ///< in the link's frame; the root link's is not used (it cannot move)
+  BodyInertia inertia = {};  ///< in the link's frame; not used of what cannot move
 };
 
 /// This joint's displacement is `multiplier * (displacement of joint) + offset`.
@@ -46,6 +46,9 @@ struct ShapeSpec {
   std::string name;  ///< of a half-space; "" for shapes that are named after their link
   Shape shape;
   Pose X_LG;
+  std::string material = {};  ///< of a half-space; "": that of its link, as all other shapes
+  /// Of a half-space: with all that no set_contact is said of.
+  std::optional<ContactProperties> contact = {};
 };
 
 /// Are gaps watched between links on both sides of one joint? They overlap at it by design; a
@@ -63,7 +66,7 @@ struct FilterSpec {
 struct MaterialSpec {
   std::map<std::string, std::string> of_link;
   std::map<std::pair<std::string, std::string>, ContactProperties> contact;  ///< the lesser first
-  ContactProperties standard;  ///< of all pairs that `contact` has not
+  std::optional<ContactProperties> standard;  ///< of all pairs that nothing else is said of
 };
 
 struct ModelDescription {

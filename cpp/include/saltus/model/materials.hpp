@@ -1,12 +1,15 @@
 // What shapes are made of, and what happens where two of these meet.
 //
 // Restitution and friction belong to pairs of materials, not to bodies: steel on steel rebounds,
-// steel on clay does not. A pair that nothing is said of has the default, an elastic contact
-// without friction unless that is set too.
+// steel on clay does not. Of a pair holds the first of these that is said: the contact of its two
+// materials, the properties of its floor, the default contact. A pair that nothing is said of is
+// elastic and without friction, and a warning says so where a free body falls on a floor.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "saltus/export.hpp"
 
 namespace saltus {
 
@@ -17,8 +20,14 @@ struct ContactProperties {
   bool operator==(const ContactProperties&) const = default;
 };
 
+/// @throws ModelError where no contact can have these; `between` says whose they are.
+SALTUS_EXPORT void check_properties(const ContactProperties& properties,
+                                    const std::string& between);
+
 struct MaterialTable {
-  std::vector<std::string> names = {""};      ///< (k) the first is that of shapes without one
+  /// (k) materials, the first that of shapes without one; floors with properties of their own have
+  /// rows of their own, so that a name may be there twice.
+  std::vector<std::string> names = {""};
   std::vector<int> of_shape;                  ///< (shapes) index in names
   std::vector<ContactProperties> contact{1};  ///< (k * k) row by row, symmetric
 

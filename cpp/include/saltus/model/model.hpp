@@ -140,9 +140,9 @@ class SALTUS_EXPORT Model {
 
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int velocity_index(const std::string& name) const;  ///< likewise, in v and p
-  int link(const std::string& name) const;        ///< index, or ModelError with the names there are
-  Pair pair(int pair) const;                      ///< what the pair of this number is of
-  std::string pair_name(int pair) const;          ///< "a ~ b", "a[part] ~ b"
+  int link(const std::string& name) const;  ///< index, or ModelError with the names there are
+  Pair pair(int pair) const;                ///< what the pair of this number is of
+  std::string pair_name(int pair) const;    ///< "a ~ b", "a[part] ~ b"
   ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;

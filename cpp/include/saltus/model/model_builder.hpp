@@ -5,8 +5,41 @@
 #include <vector>
 
 #include "saltus/model/description.hpp"
+#include "saltus/model/solids.hpp"
 
 namespace saltus {
+
+/// A homogeneous solid that moves: a link, its shape and the joint above it. The frames of the
+/// three are one.
+struct BodySpec {
+  std::string name;  ///< of the link
+  Shape shape;
+  std::optional<double> mass = {};     ///< [kg] this or density; neither where the joint is fixed
+  std::optional<double> density = {};  ///< [kg/m^3]
+  Pose X = {};                         ///< in the parent link's frame, at displacement 0
+  JointType joint = JointType::floating;
+  std::string joint_name = {};  ///< "": the body's
+  std::string parent = {};      ///< link; "": the root
+  Vec3 axis = Vec3::UnitX();    ///< of a joint that has one, in the body's frame
+};
+
+/// The solid below a plane, fixed to the world, of a material of its own.
+struct FloorSpec {
+  std::string name = "floor";
+  Vec3 normal = Vec3::UnitZ();  ///< out of the solid, of any length but 0
+  double offset = 0;            ///< [m] normal.x on the plane
+  /// With all that no set_contact is said of; the default contact where there is none.
+  std::optional<ContactProperties> contact = {};
+  std::string material = {};  ///< "": the floor's name
+};
+
+/// How ModelBuilder::add puts another description into its own.
+struct AddSpec {
+  std::string prefix = {};     ///< of all its names
+  std::string parent = {};     ///< link that carries its root link; "": the root
+  Pose X = {};                 ///< its root link's frame in the parent's
+  bool own_materials = false;  ///< materials get the prefix, too; else equal names are one material
+};
 
 /// Local mistakes throw at once, in add_ and set_; those that need the whole (unknown parents,
 /// cycles, two roots, joints that move no mass) in check() and build(). All are ModelError and
@@ -30,6 +63,18 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
   /// The solid below the plane normal.x = offset, fixed to the world; `name` as in pair names.
   ModelBuilder& add_half_space(const std::string& name, const Vec3& normal, double offset = 0);
+  /// Link, shape and joint in one; nothing is added where it throws.
+  ModelBuilder& add_body(const BodySpec& body);
+  /// A half-space with a material and, perhaps, contact properties of its own.
+  ModelBuilder& add_floor(const FloorSpec& floor = {});
+  /// Puts another description into this one, its root link fixed to a link of this one.
+  ///
+  /// Half-spaces of one plane become one, and default contacts that only one of the two has hold
+  /// for both. Gravity, solver and source stay those of this builder.
+  /// @throws ModelError on names that both have, half-spaces that would move, and default contacts,
+  /// contacts of materials, floors or rules for adjacent links that contradict each other; nothing
+  /// is added then.
+  ModelBuilder& add(ModelDescription other, const AddSpec& how = {});
   /// No gap is watched between these links; half-spaces belong to the root link.
   ModelBuilder& add_exclusion(const std::string& link_a, const std::string& link_b);
   /// The same, but half-spaces of these links stay watched: for lists that know of none (SRDF).
@@ -42,7 +87,8 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& set_adjacent_links(AdjacentLinks adjacent);
   /// What all shapes of a link are made of; half-spaces belong to the root link.
   ModelBuilder& set_material(const std::string& link, const std::string& material);
-  /// Of all pairs that no set_contact is said of. Elastic and without friction otherwise.
+  /// Of all pairs that nothing else is said of: neither by set_contact of their materials, nor by
+  /// the floor. Elastic and without friction otherwise.
   ModelBuilder& set_default_contact(const ContactProperties& properties);
   /// What happens between two materials, in any order; the last word holds.
   ModelBuilder& set_contact(const std::string& material_a, const std::string& material_b,
@@ -63,12 +109,5 @@ class SALTUS_EXPORT ModelBuilder {
 /// an inertia without mass. Principal moments are judged by build(), which knows what is welded to
 /// what: many robots' files have links that are impossible alone (1e-6 kg as a place holder).
 SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
-
-/// Inertia of a homogeneous ball about its centre, a frequent need.
-/// @throws ModelError where the mass or a size is not finite and positive; so the other solids.
-SALTUS_EXPORT BodyInertia solid_sphere(double mass, double radius);
-/// The same of a box and of a cylinder along z, by the sizes of their shapes.
-SALTUS_EXPORT BodyInertia solid_box(double mass, const Vec3& half);
-SALTUS_EXPORT BodyInertia solid_cylinder(double mass, double radius, double half_length);
 
 }  // namespace saltus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,14 +26,15 @@ struct BatchOptions {
 
 /// How one run went.
 struct RunOutcome {
-  std::vector<Impact> impacts;              ///< in order of time; `first` counts into `impulses`
-  std::vector<Impulse> impulses;            ///< of all its impacts
-  std::vector<TangentialImpulse> friction;  ///< of those of `impulses` that had any
+  std::vector<Impact> impacts;           ///< in order of time; `first` counts into `impulses`
+  std::vector<ContactImpulse> impulses;  ///< of all its impacts
   std::vector<Settling> settlings;
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
-  long iterations = 0;                    ///< Newton iterations in all
-  double residual = 0;                    ///< [largest momentum] the worst of any step
-  Eigen::Index rows = 1;                  ///< that were reached; the others are NaN
+  /// As in Trajectory, if SimulateOptions::record_contacts; also of steps after the last row.
+  std::optional<std::vector<RecordedContact>> contacts;
+  long iterations = 0;    ///< Newton iterations in all
+  double residual = 0;    ///< [largest momentum] the worst of any step
+  Eigen::Index rows = 1;  ///< that were reached; the others are NaN
   bool complete = false;  ///< false: failed, or stopped on request before `duration`
   std::string failure;    ///< what its error says, "" if there was none
 };
@@ -65,9 +67,16 @@ SALTUS_EXPORT std::vector<State> states(const Model& model, const Eigen::Ref<con
 /// `progress` returns false, all stop after their step and what was done is kept.
 /// @throws ModelError before anything runs: on no starts, starts that do not fit the model, are not
 ///         finite or not all at the same time, on what simulate refuses, on threads < 0, on more
-///         than 16 GB of rows. With OnFailure::stop the error of the first run, by index, that
+///         than 16 GB of rows; contacts of a run, where they are recorded, may take its share of
+///         what the rows leave. With OnFailure::stop the error of the first run, by index, that
 ///         fails. What `progress` throws.
 SALTUS_EXPORT BatchTrajectory simulate_batch(const Model& model, std::span<const State> starts,
                                              double duration, const BatchOptions& options = {});
+
+/// The same, written to `out`, which holds what was done also where a run's error is thrown, and is
+/// as it was where nothing runs.
+SALTUS_EXPORT void simulate_batch(const Model& model, std::span<const State> starts,
+                                  double duration, const BatchOptions& options,
+                                  BatchTrajectory& out);
 
 }  // namespace saltus

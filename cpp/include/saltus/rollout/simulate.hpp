@@ -12,7 +12,8 @@ struct SimulateOptions {
   double h = 0.01;  ///< [s]
   ImpactLaw law = ImpactLaw::nodal_energy;
   bool collisions = true;
-  int record_every = 1;  ///< steps between recorded rows; the last is always one
+  int record_every = 1;          ///< steps between recorded rows; the last is always one
+  bool record_contacts = false;  ///< Trajectory::contacts, of all steps
   /// Order, bounds and tolerances; the function of a custom law. Its h, law and collisions are
   /// those above: leave them, or set the same.
   StepOptions step = {};
@@ -24,9 +25,14 @@ struct SimulateOptions {
 /// Runs round(duration / h) steps from `start`; row 0 is `start`.
 /// @throws ModelError on duration or h not positive and finite, a duration that is no whole number
 ///         of steps (to 1e-9), h, law or collisions set in options.step otherwise than in options;
-///         what Stepper::advance throws.
+///         rows and contacts of more than 16 GB; what Stepper::advance throws.
 SALTUS_EXPORT Trajectory simulate(const Model& model, const State& start, double duration,
                                   const SimulateOptions& options = {});
+
+/// The same, written to `out`. Where a step throws, `out` holds the rows up to the last before it
+/// and is not `complete`; where the numbers make no run, `out` is as it was.
+SALTUS_EXPORT void simulate(const Model& model, const State& start, double duration,
+                            const SimulateOptions& options, Trajectory& out);
 
 /// Energies at one state; the shadow energy H - h^2 kappa / 24 is what a fixed step h conserves to
 /// O(h^4), kappa = a^T M a - v^T L_qq v with a the free acceleration (theory, section 5).

@@ -1,6 +1,7 @@
 // A recorded motion.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "saltus/model/model.hpp"
@@ -8,6 +9,14 @@
 #include "saltus/variational/report.hpp"
 
 namespace saltus {
+
+/// An impulse between two bodies, in the list of all that acted in a run.
+struct RecordedContact {
+  Eigen::Index row;  ///< of the trajectory: the first at or after the end of the step
+  double t;          ///< [s] of the impact; of what held a pair closed, the end of the step
+  int impact;        ///< index in the trajectory's `impacts`; -1: it held the pair closed
+  ContactImpulse impulse;
+};
 
 /// Rows are recorded states. `impacts[i].first` counts into `impulses` of the whole trajectory.
 struct SALTUS_EXPORT Trajectory {
@@ -18,13 +27,15 @@ struct SALTUS_EXPORT Trajectory {
   VecX kinetic, potential;      ///< (rows) [J]
   VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
   std::vector<Impact> impacts;  ///< in order of time
-  std::vector<Impulse> impulses;
-  std::vector<TangentialImpulse> friction;  ///< of those of `impulses` that had any
-  std::vector<Settling> settlings;          ///< in order of time
-  std::vector<std::string> certificates;    ///< (impacts) if StepOptions::certify
-  long iterations = 0;                      ///< Newton iterations in all
-  double residual = 0;                      ///< [largest momentum] the worst of any step
-  bool complete = false;                    ///< false: stopped on request before `duration`
+  std::vector<ContactImpulse> impulses;
+  std::vector<Settling> settlings;        ///< in order of time
+  std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
+  /// All impulses, row by row: those of impacts, in order, then those that held pairs closed over
+  /// the step. If SimulateOptions::record_contacts.
+  std::optional<std::vector<RecordedContact>> contacts;
+  long iterations = 0;    ///< Newton iterations in all
+  double residual = 0;    ///< [largest momentum] the worst of any step
+  bool complete = false;  ///< false: stopped on request, or failed, before `duration`
 
   VecX total() const { return kinetic + potential; }
   /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).

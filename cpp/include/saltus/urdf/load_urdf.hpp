@@ -3,7 +3,7 @@
 // urdfdom parses; what it lets pass or drops (negative mass, zero axis, unknown mimic, a joint that
 // closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
 // 1.2 are read alike. Beyond URDF:
-//   * joints of type "spherical" or "ball" are three revolutes (yaw, pitch, roll);
+//   * joints of type "spherical" or "ball": a unit quaternion;
 //   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is the cylinder's, along
 //     z, without the two half balls;
 //   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
@@ -57,6 +57,10 @@ struct UrdfOptions {
   /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
   /// Half-spaces stay watched; links that the robot has not are named in a warning.
   std::optional<std::string> srdf = {};
+  /// The default contact, in place of the file's own `<contact>` without materials.
+  std::optional<ContactProperties> contact = {};
+  /// Adds the half-space z <= 0, as ModelBuilder::add_floor does, unless the file has it.
+  bool floor = false;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).

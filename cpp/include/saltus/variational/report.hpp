@@ -14,10 +14,14 @@ struct Impulse {
   double lambda;  ///< [N s] >= 0
 };
 
-/// What friction added to an impulse at an impact.
-struct TangentialImpulse {
-  int impulse;  ///< index in StepReport::impulses
-  Vec3 p_W;     ///< [N s] on the pair's first shape, across the normal; at most mu lambda
+/// What acted between the two shapes of a pair. On the first acts lambda n_W + p_W, at point_W; on
+/// the second the opposite. By the step h, what held a pair closed over the step is the mean force.
+struct ContactImpulse {
+  int pair;       ///< index in model->pairs
+  double lambda;  ///< [N s] along the normal
+  Vec3 p_W;       ///< [N s] friction's, across the normal; 0 without friction
+  Vec3 point_W;   ///< [m] where: halfway between the nearest points of the two shapes
+  Vec3 n_W;       ///< unit normal, from the second shape to the first
 };
 
 /// All impulses at one instant.
@@ -36,14 +40,6 @@ struct Settling {
   int pair;  ///< index in model->pairs
 };
 
-/// What held a pair closed over a step: the sum of its impulses in arcs and between them, those of
-/// impacts left aside. By the step h it is the mean force.
-struct ContactImpulse {
-  int pair;       ///< index in model->pairs
-  double lambda;  ///< [N s] along the normal
-  Vec3 p_W;       ///< [N s] friction's, on the pair's first shape, across the normal
-};
-
 /// Written by Stepper; valid until its next step.
 struct StepReport {
   int iterations = 0;   ///< Newton iterations, over all arcs tried
@@ -54,11 +50,13 @@ struct StepReport {
   /// part of the largest impulse or rate. To 1e-9 it is rounding; more than 1e-6 is an error.
   double friction_residual = 0;
   std::vector<Impact> impacts;
-  std::vector<Impulse> impulses;
+  std::vector<ContactImpulse> impulses;  ///< of impacts
   std::vector<Settling> settlings;
-  std::vector<std::string> certificates;    ///< (impacts), "" of single contacts; if asked for
-  std::vector<TangentialImpulse> friction;  ///< of the impulses that had any
-  std::vector<ContactImpulse> contacts;     ///< of pairs that were held closed, each once
+  std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
+  /// Of pairs that were held closed, each once: the sum of its impulses in arcs and between them,
+  /// those of impacts left aside. Each acts where the contact is as its arc starts, or between
+  /// arcs; point and normal are the mean of these, weighted by lambda.
+  std::vector<ContactImpulse> contacts;
 };
 
 }  // namespace saltus

@@ -129,8 +129,7 @@ SALTUS_CLONES void correct_momenta(const PackedTree& t, double tau, Packed& w) {
       const V6 up = load6(at(w.V, s.x) + l, 0) - *s_x * load6(S_x, 0);  // V of what is above
       // L_q' = W'.H + S.g with W' = up x S, that is S.(g - up x* H); less up.v x m up.v, which is
       // nothing: a body that flies feels no torque, to the last bit
-      const V3 carried{SALTUS_ROUNDED(m * up.v.x), SALTUS_ROUNDED(m * up.v.y),
-                       SALTUS_ROUNDED(m * up.v.z)};
+      const V3 carried = rounded_product(m, up.v);
       const V6 torque{cross(load3(I_h, 6), gravity) - cross(up.w, H.w) - cross(up.v, H.v - carried),
                       m * gravity - cross(up.w, H.v)};
       const V3 L_q{dot(load6(S_x, 0), torque), dot(load6(S_y, 0), torque),

@@ -32,13 +32,6 @@
 #define SALTUS_INLINE_LAMBDA
 #endif
 
-// A product that is rounded before it is added to: kernels are compiled with fused sums.
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
-#define SALTUS_ROUNDED(x) __builtin_assoc_barrier(x)
-#else
-#define SALTUS_ROUNDED(x) (x)
-#endif
-
 namespace saltus::packed {
 
 struct V3 {
@@ -54,6 +47,16 @@ SALTUS_INLINE V3 cross(V3 a, V3 b) {
 }
 /// Sum of absolute values: a norm without a root.
 SALTUS_INLINE double size(V3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
+/// k a, rounded before it is added to anything: kernels are compiled with fused sums.
+SALTUS_INLINE V3 rounded_product(double k, V3 a) {
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+  return {__builtin_assoc_barrier(k * a.x), __builtin_assoc_barrier(k * a.y),
+          __builtin_assoc_barrier(k * a.z)};
+#else
+  return k * a;
+#endif
+}
 
 /// By columns.
 struct M3 {

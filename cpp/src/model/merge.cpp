@@ -1,0 +1,289 @@
+// One description put into another: names, floors and contacts of the two brought together.
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "model/assembly.hpp"
+
+namespace saltus {
+namespace {
+
+using Contacts = std::map<std::pair<std::string, std::string>, ContactProperties>;
+
+bool is_half_space(const ShapeSpec& shape) {
+  return std::holds_alternative<HalfSpace>(shape.shape);
+}
+
+std::string name_of(const ShapeSpec& shape) { return shape.name.empty() ? shape.link : shape.name; }
+
+/// What a shape is made of; "" where nothing says it.
+std::string material_of(const ModelDescription& d, const ShapeSpec& shape) {
+  if (!shape.material.empty()) return shape.material;
+  const auto found = d.materials.of_link.find(shape.link);
+  return found == d.materials.of_link.end() ? "" : found->second;
+}
+
+template <class Value>
+std::map<std::string, Value> prefixed(const std::map<std::string, Value>& names,
+                                      const std::string& prefix) {
+  std::map<std::string, Value> out;
+  for (const auto& [name, value] : names) out[prefix + name] = value;
+  return out;
+}
+
+/// The same description under other names.
+void add_prefix(const AddSpec& how, ModelDescription& d) {
+  const std::string& prefix = how.prefix;
+  const auto rename = [&](std::string& name) { name.insert(0, prefix); };
+  rename(d.root);
+  for (LinkSpec& link : d.links) rename(link.name);
+  for (JointSpec& joint : d.joints) {
+    for (std::string* name : {&joint.name, &joint.parent, &joint.child}) rename(*name);
+    if (joint.mimic) rename(joint.mimic->joint);
+  }
+  for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
+    for (auto& [first, second] : *pairs) rename(first), rename(second);
+  }
+  d.filter.group_of = prefixed(d.filter.group_of, prefix);
+  for (auto& [link, group] : d.filter.group_of) rename(group);
+  for (ShapeSpec& shape : d.shapes) {
+    rename(shape.link);
+    if (!shape.name.empty()) rename(shape.name);
+  }
+  d.materials.of_link = prefixed(d.materials.of_link, prefix);
+  if (!how.own_materials) return;
+  for (ShapeSpec& shape : d.shapes) {
+    if (!shape.material.empty()) rename(shape.material);
+  }
+  for (auto& [link, material] : d.materials.of_link) rename(material);
+  Contacts contact;
+  for (const auto& [pair, properties] : d.materials.contact) {
+    contact[std::minmax(prefix + pair.first, prefix + pair.second)] = properties;
+  }
+  d.materials.contact = std::move(contact);
+}
+
+struct Names {
+  std::set<std::string> links, joints, half_spaces, groups;
+};
+
+Names names_of(const ModelDescription& d) {
+  Names names;
+  for (const LinkSpec& link : d.links) names.links.insert(link.name);
+  for (const JointSpec& joint : d.joints) names.joints.insert(joint.name);
+  for (const ShapeSpec& shape : d.shapes) {
+    if (!shape.name.empty()) names.half_spaces.insert(shape.name);
+  }
+  for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
+  return names;
+}
+
+/// The first name that both have, as kind and name; {"", ""} where there is none.
+std::pair<std::string, std::string> clash(const Names& ours, const Names& others,
+                                          const std::string& prefix) {
+  const auto find = [&](const std::set<std::string>& a, const std::set<std::string>& b) {
+    const auto both =
+        std::find_if(b.begin(), b.end(), [&](const auto& name) { return a.count(prefix + name); });
+    return both == b.end() ? "" : prefix + *both;
+  };
+  const std::vector<std::pair<std::string, std::string>> found = {
+      {"link", find(ours.links, others.links)},
+      {"joint", find(ours.joints, others.joints)},
+      {"half_space", find(ours.half_spaces, others.half_spaces)},
+      {"group", find(ours.groups, others.groups)}};
+  for (const auto& each : found) {
+    if (!each.second.empty()) return each;
+  }
+  return {};
+}
+
+void check_names(const ModelDescription& ours, const ModelDescription& other,
+                 const std::string& given) {
+  const Names mine = names_of(ours), others = names_of(other);
+  const auto [kind, name] = clash(mine, others, "");
+  if (kind.empty()) return;
+  std::string prefix = other.name + "_";
+  for (int k = 2; !clash(mine, others, prefix).first.empty(); ++k) {
+    prefix = other.name + "_" + std::to_string(k) + "_";
+  }
+  throw ModelError("both " + quoted(ours.name) + " and what is added have a " +
+                       (kind == "half_space" ? "half-space" : kind) + " " + quoted(name) +
+                       "; a prefix makes names differ, for example " + quoted(prefix + given),
+                   kind, name);
+}
+
+/// What two descriptions say of one thing; @throws where they contradict each other.
+std::optional<ContactProperties> agreed(const std::optional<ContactProperties>& a,
+                                        const std::optional<ContactProperties>& b,
+                                        const std::string& what, const std::string& advice) {
+  if (a && b && !(*a == *b)) {
+    throw ModelError(
+        what + " has " + in_words(*a) + ", and in what is added " + in_words(*b) + "; " + advice,
+        "contact", what);
+  }
+  return a ? a : b;
+}
+
+/// Finds the other's half-spaces in ours, gives ours what the other says of them, and takes them
+/// out of the other. Returns what the materials of the other's are called in ours.
+std::map<std::string, std::string> merge_floors(const Pose& X_WR, ModelDescription& ours,
+                                                ModelDescription& other) {
+  std::map<std::string, std::string> renamed;
+  const auto is_merged = [&](const ShapeSpec& shape) {
+    if (!is_half_space(shape)) return false;
+    const std::optional<Pose> X_RL = fixed_pose(other, shape.link);
+    if (!X_RL) return false;
+    for (ShapeSpec& floor : ours.shapes) {
+      if (!is_half_space(floor)) continue;
+      const std::optional<Pose> X_WL = fixed_pose(ours, floor.link);
+      if (!X_WL || !same_plane(*X_WL * floor.X_LG, X_WR * *X_RL * shape.X_LG)) continue;
+      agreed(floor.contact ? floor.contact : ours.materials.standard,
+             shape.contact ? shape.contact : other.materials.standard,
+             "half-space " + quoted(name_of(floor)), "they are one plane: give both the same");
+      if (!floor.contact) floor.contact = shape.contact;
+      const std::string mine = material_of(ours, floor), its = material_of(other, shape);
+      if (mine.empty()) floor.material = its;
+      if (!mine.empty() && !its.empty() && mine != its) renamed[its] = mine;
+      return true;
+    }
+    return false;
+  };
+  std::vector<ShapeSpec> rest;
+  for (const ShapeSpec& shape : other.shapes) {
+    if (!is_merged(shape)) rest.push_back(shape);
+  }
+  other.shapes = std::move(rest);
+  return renamed;
+}
+
+/// Adds the other's contacts; those of a floor that is made of one of our materials are now of it.
+void merge_contacts(const std::map<std::string, std::string>& renamed,
+                    const ModelDescription& other, ModelDescription& ours) {
+  std::set<std::string> used;
+  for (const auto& [link, material] : other.materials.of_link) used.insert(material);
+  for (const ShapeSpec& shape : other.shapes) used.insert(material_of(other, shape));
+  const auto names = [&](const std::string& material) {
+    std::vector<std::string> names;
+    const auto found = renamed.find(material);
+    if (found != renamed.end()) names.push_back(found->second);
+    if (found == renamed.end() || used.count(material) > 0) names.push_back(material);
+    return names;
+  };
+  for (const auto& [pair, properties] : other.materials.contact) {
+    for (const std::string& a : names(pair.first)) {
+      for (const std::string& b : names(pair.second)) {
+        const auto [at, is_new] = ours.materials.contact.emplace(std::minmax(a, b), properties);
+        if (is_new) continue;
+        agreed(at->second, properties, "the contact between " + quoted(a) + " and " + quoted(b),
+               "own_materials keeps the materials of the two apart");
+      }
+    }
+  }
+}
+
+void check_rules(const ModelDescription& ours, const ModelDescription& other) {
+  const auto said = [](const ModelDescription& d) {
+    return d.filter.adjacent == AdjacentLinks::watched ? "watched" : "excluded";
+  };
+  if (ours.filter.adjacent != other.filter.adjacent) {
+    throw ModelError("gaps between adjacent links are " + std::string(said(ours)) + " in " +
+                     quoted(ours.name) + " and " + said(other) + " in what is added, " +
+                     quoted(other.name) + "; set_adjacent_links makes them equal");
+  }
+}
+
+/// Where the other's root link is in the world; nothing where it moves.
+std::optional<Pose> check_parent(const ModelDescription& ours, const ModelDescription& other,
+                                 const std::string& parent, const Pose& X) {
+  std::vector<std::string> links;
+  for (const LinkSpec& link : ours.links) links.push_back(link.name);
+  if (std::find(links.begin(), links.end(), parent) == links.end()) {
+    throw ModelError(quoted(other.name) + " is to be carried by link " + quoted(parent) +
+                         ", which does not exist; links are " + list_names(links),
+                     "link", parent);
+  }
+  const std::optional<Pose> X_WP = fixed_pose(ours, parent);
+  if (X_WP) return *X_WP * X;
+  for (const ShapeSpec& shape : other.shapes) {
+    if (!is_half_space(shape)) continue;
+    throw ModelError("half-space " + quoted(name_of(shape)) + " of " + quoted(other.name) +
+                         " would move with link " + quoted(parent) +
+                         "; half-spaces are fixed to the world",
+                     "half_space", name_of(shape));
+  }
+  return {};
+}
+
+template <class Items>
+void append(const Items& from, Items& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void warn_of_gravity(const ModelDescription& other, ModelDescription& ours) {
+  if (ours.gravity == other.gravity) return;
+  const auto show = [](const Vec3& g) {
+    std::ostringstream text;
+    text << "(" << g[0] << " " << g[1] << " " << g[2] << ")";
+    return text.str();
+  };
+  ours.warnings.push_back("gravity of " + quoted(other.name) + " is " + show(other.gravity) +
+                          " and not used: that of " + quoted(ours.name) + " holds, " +
+                          show(ours.gravity));
+}
+
+}  // namespace
+
+std::optional<Pose> fixed_pose(const ModelDescription& d, const std::string& link) {
+  Pose X;
+  std::string at = link;
+  for (std::size_t hops = 0; at != d.root; ++hops) {
+    const auto above = std::find_if(d.joints.begin(), d.joints.end(),
+                                    [&](const JointSpec& joint) { return joint.child == at; });
+    if (above == d.joints.end() || above->type != JointType::fixed) return {};
+    if (hops > d.joints.size()) return {};  // a cycle, which build() refuses
+    X = above->X_PJ * X;
+    at = above->parent;
+  }
+  return X;
+}
+
+ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
+  add_prefix(how, other);
+  const std::string parent = how.parent.empty() ? d_.root : how.parent;
+  ModelBuilder whole = *this;  // becomes this one when nothing is wrong
+  ModelDescription& d = whole.d_;
+  const std::optional<Pose> X_WR = check_parent(d, other, parent, how.X);
+  check_rules(d, other);
+  const std::optional<ContactProperties> standard =
+      agreed(d.materials.standard, other.materials.standard,
+             "the default contact of " + quoted(d.name), "set_default_contact makes them equal");
+  std::map<std::string, std::string> renamed;
+  if (X_WR) renamed = merge_floors(*X_WR, d, other);
+  check_names(d, other, how.prefix);
+  merge_contacts(renamed, other, d);
+  d.materials.standard = standard;
+  warn_of_gravity(other, d);
+
+  JointSpec joint;
+  joint.name = other.root;
+  joint.type = JointType::fixed;
+  joint.parent = parent;
+  joint.child = other.root;
+  joint.X_PJ = how.X;
+  const Names mine = names_of(d), others = names_of(other);
+  while (mine.joints.count(joint.name) + others.joints.count(joint.name) > 0) joint.name += "_";
+  whole.add_joint(joint);
+  append(other.links, d.links);
+  append(other.joints, d.joints);
+  append(other.shapes, d.shapes);
+  append(other.warnings, d.warnings);
+  append(other.filter.links, d.filter.links);
+  append(other.filter.bodies, d.filter.bodies);
+  append(other.filter.groups, d.filter.groups);
+  d.filter.group_of.insert(other.filter.group_of.begin(), other.filter.group_of.end());
+  d.materials.of_link.insert(other.materials.of_link.begin(), other.materials.of_link.end());
+  *this = std::move(whole);
+  return *this;
+}
+
+}  // namespace saltus
