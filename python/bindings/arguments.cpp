@@ -33,6 +33,13 @@ Numbers numbers_of_v(const Model& model) {
   return {"velocity", "velocities", model->velocity_names, &JointInfo::velocities};
 }
 
+/// A sequence, but no text and no array without dimension.
+bool is_list(const py::handle& x) {
+  if (py::isinstance<py::str>(x) || py::isinstance<py::bytes>(x)) return false;
+  if (py::isinstance<py::array>(x)) return py::reinterpret_borrow<py::array>(x).ndim() > 0;
+  return py::isinstance<py::sequence>(x);
+}
+
 /// Numbers in a sequence, of sequences or not: (position, quaternion) is seven.
 void append_numbers(const py::handle& x, const std::string& entry, std::vector<double>& out) {
   if (py::isinstance<Pose>(x)) {
@@ -42,7 +49,7 @@ void append_numbers(const py::handle& x, const std::string& entry, std::vector<d
     out.insert(out.end(), q.coeffs().begin(), q.coeffs().end());
   } else if (py::hasattr(x, "as_quat")) {  // SciPy's Rotation: x y z w
     append_numbers(x.attr("as_quat")(), entry, out);
-  } else if (py::isinstance<py::sequence>(x) && !py::isinstance<py::str>(x)) {
+  } else if (is_list(x)) {
     for (const py::handle each : x) append_numbers(each, entry, out);
   } else {
     out.push_back(to_number(x, entry));

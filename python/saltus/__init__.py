@@ -6,9 +6,10 @@
 >>> print(f"{run.impacts['t'][0]:.4f} s")
 0.5046 s
 
-Units are SI. Arrays of coordinates are `(n,)`, trajectories `(rows, n)`. Everything that a user
-can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError` (a
-RuntimeError) or its kind `JammedError`.
+Units are SI. Arrays of coordinates are `(n_q,)`, of velocities and momenta `(n_v,)`, trajectories
+`(rows, n_q)` and `(rows, n_v)`; the two differ where there are free or ball joints. Everything that
+a user can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError`
+(a RuntimeError) or its kind `JammedError`.
 """
 
 from saltus import scenes

@@ -95,7 +95,10 @@ def _too_many(signature: Signature, given: int) -> str:
     unnamed = [name for name in names[: signature.positional] if name != "self"]
     count = given - (names[:1] == ["self"])
     if not unnamed:
-        return f"is given {count} argument{'s' if count > 1 else ''}; it takes none"
+        named = names[signature.positional :]
+        takes = f"{', '.join(named)}, by name" if named else "none"
+        without = " without a name" if named else ""
+        return f"is given {count} argument{'s' if count > 1 else ''}{without}; it takes {takes}"
     rest = ", the others by name" if len(names) > signature.positional else ""
     return f"is given {count} arguments without a name; it takes {', '.join(unnamed)}{rest}"
 

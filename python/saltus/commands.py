@@ -104,7 +104,8 @@ def info(chosen: argparse.Namespace) -> int:
     mass = sum(link.mass for link in model.links)
     print(
         f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
-        f"coordinates, {model.n_v} velocities, {len(model.shapes)} shapes, {model.n_pairs} gaps, {mass:g} kg"
+        f"coordinates, {model.n_v} velocities, {len(model.shapes)} shapes, "
+        f"{model.n_pairs} gaps, {mass:g} kg"
     )
     _print_solvers(model)
     print(f"default contact: {_in_words(model.default_contact)}")

@@ -266,9 +266,7 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
     # The joint that load_urdf added, if it did, is the only one below the model's root.
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
     wanted = _parts(model)
-    floors = (
-        (False, True) if any(isinstance(s.shape, HalfSpace) for s in model.shapes) else (False,)
-    )
+    floors = {False, any(isinstance(s.shape, HalfSpace) for s in model.shapes)}
     for floor, meshes, root_joint, solver in product(
         floors, (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver
     ):
@@ -291,10 +289,11 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
 def _parts(model: Model) -> tuple[object, ...]:
     # A mesh that is in no pair has no part in the motion, and its file may be gone.
     shapes = [s.name for s in model.shapes if not isinstance(s.shape, Convex)]
-    names = model.link_names, model.joint_names, model.coordinate_names, shapes
+    # A half-space that was added may have the name of load_urdf's floor and be elsewhere.
+    planes = [i for i, s in enumerate(model.shapes) if isinstance(s.shape, HalfSpace)]
+    poses = [model.shape_poses(model.neutral()[np.newaxis], i).tolist() for i in planes]
+    names = model.link_names, model.joint_names, model.coordinate_names, shapes, poses
     pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
     if model.n_pairs <= LISTED_PAIRS:
-        pairs = [
-            (name, repr(model.contact_properties(i))) for i, name in enumerate(model.pair_names)
-        ]
+        pairs = [(n, repr(model.contact_properties(i))) for i, n in enumerate(model.pair_names)]
     return *names, pairs, [repr(trees) for trees in model.solvers]

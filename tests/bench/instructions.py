@@ -24,6 +24,9 @@ BUDGET = Path(__file__).with_suffix(".json")
 TOLERANCE = 0.10  # above the budget; changes of a compiler's minor version stay below
 VALGRIND = "valgrind is absent (Debian: apt-get install valgrind)"
 
+BODY = """<robot name="body"><link name="body"><inertial><mass value="1"/>
+<inertia ixx="0.04" iyy="0.03" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>"""
+
 Workload = tuple[str, Scene]
 
 
@@ -35,6 +38,7 @@ def workloads() -> dict[str, Workload]:
         "step, chain 8": ("step", scenes.chain(8)),
         "step, chain 32": ("step", scenes.chain(32)),
         "step, humanoid": ("step", robot),
+        "step, free body": ("step", Scene("body", "robot", BODY, 0.3, floating=True)),
         "step, touching cradle of 3": ("step", Scene("cradle 3", "touching", cradle.urdf, 0.1)),
         "step with an impact, cradle of 3": ("impact", cradle),
         "partials, chain 32": ("lagrangian", scenes.chain(32)),
