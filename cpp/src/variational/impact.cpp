@@ -32,14 +32,18 @@ double lost_energy(const Node& node) {
 
 /// Says what the arc after the impact has to match, and by a change of which impulse: the last
 /// strong one (theory, section 5, warning a).
-void prepare_launch(double energy, Node& node) {
+/// @param first of this impact's impulses in the report
+void prepare_launch(double energy, int first, Node& node) {
   double strongest = 0;
   for (const Impulse& impulse : node.impulses) {
     strongest = std::max(strongest, normal_energy(node, impulse));
   }
-  for (const Impulse& impulse : node.impulses) {
+  node.launch.change = 0;
+  for (std::size_t k = 0; k < node.impulses.size(); ++k) {
+    const Impulse& impulse = node.impulses[k];
     const double part = normal_energy(node, impulse);
     if (!(part > 1e-3 * strongest)) continue;
+    node.launch.impulse = first + static_cast<int>(k);
     node.launch.normal_energy = part;
     node.launch.n.setZero();
     add(node.trees, 1, node.contacts[impulse.pair].n, node.launch.n);
@@ -124,7 +128,9 @@ bool resolve_node_impact(const ModelData& model, const StepOptions& options, dou
       return false;
     }
     apply_impulses(node);
-    if (options.law != ImpactLaw::nodal_energy) prepare_launch(energy, node);
+    if (options.law != ImpactLaw::nodal_energy) {
+      prepare_launch(energy, static_cast<int>(report.impulses.size()), node);
+    }
   }
   tell_reflections(node, options.law, report);
   if (options.certify) report.certificates.push_back(certify(node));

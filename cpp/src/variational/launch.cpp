@@ -36,6 +36,7 @@ double shadow_mismatch(const ModelData& model, const StepOptions& options, const
 /// A change of the momentum at the node by delta n.
 void kick(const ModelData& model, double delta, Node& node, Flight& f) {
   node.p += delta * node.launch.n;
+  node.launch.change += delta;
   f.n = node.launch.n;
   solve(model.tree, model.packed, node.M, f.n);
   node.v += delta * f.n;

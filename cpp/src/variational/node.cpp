@@ -145,7 +145,9 @@ bool impact_pending(const Node& node) {
 void come_to_rest(const ModelData& model, int contact, Node& node) {
   Contact& c = node.contacts[contact];
   solve(model, node.trees, c.n, node.M, node.column, c.column);
-  apply(node, contact, -c.u / dot(c.n, c.column));
+  const double lambda = -c.u / dot(c.n, c.column);  // below 0: it takes the last bounce away
+  apply(node, contact, lambda);
+  node.closing.push_back(acted(node, c, lambda, Vec3::Zero()));
   node.held[c.pair] = 1;
   refresh_motions(node);
   settle_held_contacts(model, node);

@@ -44,6 +44,8 @@ struct Launch {
   double energy = 0;         ///< [J] what the law conserves, less what restitution took
   double normal_energy = 0;  ///< [J] u^2 / 2G of the last strong impulse
   VecX n;                    ///< (n_v)
+  int impulse = -1;          ///< that impulse's index in the report
+  double change = 0;         ///< [N s] of it, by a kick at the node
 };
 
 struct Node {

@@ -87,6 +87,7 @@ void Stepper::Impl::start(const State& state) {
   flight.history.clear();
   flight.has_rate = false;
   node.launch.pending = false;
+  node.launch.change = 0;
   start_anew(node.broad);
   start_anew(flight.broad);
   if (node.pool.is_full()) forget_pairs(node);
@@ -139,6 +140,7 @@ void Stepper::Impl::fly_one_arc(double left) {
   report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
   ++report.arcs;
   report.sustained += flight.active;
+  tell_launch(flight, node, report);
   tell_holds(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
 }

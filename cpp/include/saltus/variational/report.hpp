@@ -56,6 +56,7 @@ struct StepReport {
   /// Of pairs that were held closed, each once: the sum of its impulses in arcs and between them,
   /// those of impacts left aside. Each acts where the contact is as its arc starts, or between
   /// arcs; point and normal are the mean of these, weighted by lambda.
+  /// What ends the bounces of a pair without friction is told apart, with lambda < 0.
   std::vector<ContactImpulse> contacts;
 };
 
