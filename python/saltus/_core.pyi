@@ -76,8 +76,10 @@ __all__: list[str] = [
     "simulate_batch",
     "solid_box",
     "solid_cylinder",
+    "solid_inertia",
     "solid_sphere",
     "states",
+    "volume",
 ]
 
 class ModelError(ValueError):
@@ -96,7 +98,7 @@ class ModelError(ValueError):
 
     element: typing.ClassVar[str] = ""
     name: typing.ClassVar[str] = ""
-    trajectory: typing.Any
+    trajectory = None
 
 class StepError(RuntimeError):
     """
@@ -117,7 +119,7 @@ class StepError(RuntimeError):
     iterations: typing.ClassVar[int] = 0
     residual: typing.ClassVar[float]
     t: typing.ClassVar[float]
-    trajectory: typing.Any
+    trajectory = None
 
 class JammedError(StepError):
     """
@@ -548,14 +550,28 @@ class ContactProperties:
     """
     What happens where two materials meet.
 
-    Attributes
+    Parameters
     ----------
     restitution : float
         e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
     friction : float
         Coulomb's mu >= 0.
+
+    Raises
+    ------
+    ModelError
+        On values out of their range.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
+    def __eq__(self, other: ContactProperties) -> bool: ...
     def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -1146,6 +1162,11 @@ class Model:
     @property
     def coordinates(self) -> list[Coordinate]: ...
     @property
+    def default_contact(self) -> ContactProperties | None:
+        """
+        ContactProperties of all pairs that nothing else is said of; None where nothing is said
+        """
+    @property
     def gravity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         [m/s^2] shape (3,)
@@ -1262,6 +1283,87 @@ class ModelBuilder:
     """
     def __init__(self, name: str = "model", root: str = "world") -> None: ...
     def __repr__(self) -> str: ...
+    def add(
+        self,
+        other: ModelBuilder | Model,
+        prefix: str = "",
+        *,
+        parent: str | None = None,
+        X: Pose = ...,
+        own_materials: bool = False,
+    ) -> ModelBuilder:
+        """
+        Puts another model into this one: two robots in one world.
+
+        The other's root link is fixed to a link of this one. Half-spaces of one plane become one, and a
+        default contact that only one of the two has holds for both. Materials of one name are one material.
+        Gravity and solver stay those of this builder. A `Model` is added as it was built, with its
+        collisions.
+
+        Parameters
+        ----------
+        other : ModelBuilder or Model
+            It stays as it is.
+        prefix : str
+            Put before all names of the other: of links, joints (and so coordinates), half-spaces, groups.
+        parent : str, optional
+            Link that carries the other's root link; this one's root otherwise.
+        X : Pose
+            Where the other's root link is in the parent's frame.
+        own_materials : bool
+            True: the other's materials get the prefix too, and so are others than those of this builder.
+
+        Raises
+        ------
+        ModelError
+            On names that both have (the message proposes a prefix), on half-spaces that would move, and
+            where the two contradict each other: in default contacts, contacts of materials, floors, or
+            gaps between adjacent links. Nothing is added then.
+        """
+    def add_body(
+        self,
+        name: str,
+        shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
+        *,
+        mass: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        density: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        X: Pose = ...,
+        joint: JointType = ...,
+        parent: str | None = None,
+        joint_name: str | None = None,
+        axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (1, 0, 0),
+    ) -> ModelBuilder:
+        """
+        Adds a homogeneous solid that moves: a link, its shape and the joint above it.
+
+        The frames of the three are one, and the inertia is that of the shape (`solid_inertia`).
+
+        Parameters
+        ----------
+        name : str
+            Of the link.
+        shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+        mass : float, optional
+            [kg] this or `density`; a body on a fixed joint may have neither.
+        density : float, optional
+            [kg/m^3]
+        X : Pose
+            Where the body is in the parent link's frame at displacement 0.
+        joint : JointType
+            Floating: it flies. Fixed, and below the root: it never moves.
+        parent : str, optional
+            Link below which it hangs; the root link otherwise. It may be added later.
+        joint_name : str, optional
+            The body's name otherwise, so that the coordinates of a free body "cube" are "cube_x" and so on.
+        axis : array_like, shape (3,)
+            Of a joint that has one, in the body's frame. `add_joint` has what joints may have besides.
+
+        Raises
+        ------
+        ModelError
+            On names that are taken, a half-space, sizes or a mass that no body has, and where not one of
+            mass and density is given. Nothing is added then.
+        """
     def add_body_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
         """
         As `add_exclusion`, but half-spaces of these links stay watched.
@@ -1279,6 +1381,42 @@ class ModelBuilder:
         Parameters
         ----------
         link_a, link_b : str
+        """
+    def add_floor(
+        self,
+        name: str = "floor",
+        *,
+        normal: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 1),
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        restitution: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        friction: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        material: str | None = None,
+    ) -> ModelBuilder:
+        """
+        Adds the solid below the plane normal.x = offset, fixed to the world, of a material of its own.
+
+        What happens between a floor and a body is the first of these that is said: `set_contact` of their
+        two materials, this floor's own properties, `set_default_contact`.
+
+        Parameters
+        ----------
+        name : str
+            As in names of pairs.
+        normal : array_like, shape (3,)
+            Out of the solid, of any length but 0.
+        offset : float
+            [m]
+        restitution, friction : float, optional
+            With all bodies that no `set_contact` is said of. Where one of the two is given, the other is 0;
+            where none is, the default contact holds.
+        material : str, optional
+            For `set_contact`; the floor's name otherwise.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, on a plane where there is a half-space already, and on numbers out of
+            their range. Nothing is added then.
         """
     def add_group_exclusion(self, group_a: str, group_b: str) -> ModelBuilder:
         """
@@ -1403,6 +1541,7 @@ class ModelBuilder:
         Returns
         -------
         Model
+            Its `warnings` are also issued as `ModelWarning`.
 
         Raises
         ------
@@ -1455,9 +1594,9 @@ class ModelBuilder:
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> ModelBuilder:
         """
-        Says what happens between all shapes that no `set_contact` is said of.
+        Says what happens between all shapes that nothing else is said of.
 
-        Elastic and without friction otherwise. Parameters as in `set_contact`.
+        `set_contact` of their materials comes first, then the properties of a floor (`add_floor`). Elastic and without friction otherwise. Parameters as in `set_contact`.
         """
     def set_gravity(
         self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
@@ -1487,7 +1626,7 @@ class ModelBuilder:
         Parameters
         ----------
         link : str
-            The root link's material is that of its half-spaces too.
+            The root link's material is that of its half-spaces too; `add_floor` gives a floor its own.
         material : str
             Any name; `set_contact` says what happens between two.
         """
@@ -2120,7 +2259,7 @@ class BatchTrajectory:
         One run as a Trajectory of its own.
         """
     @property
-    def complete(self) -> typing.Any:
+    def complete(self) -> numpy.ndarray:
         """
         shape (runs,)
         """
@@ -2135,7 +2274,7 @@ class BatchTrajectory:
         message of each run that failed
         """
     @property
-    def impacts(self) -> typing.Any:
+    def impacts(self) -> numpy.ndarray:
         """
         number of impacts, shape (runs,)
         """
@@ -2164,7 +2303,7 @@ class BatchTrajectory:
         [rad | m] shape (runs, rows, n)
         """
     @property
-    def rows(self) -> typing.Any:
+    def rows(self) -> numpy.ndarray:
         """
         number of rows that were reached, shape (runs,)
         """
@@ -2349,6 +2488,8 @@ def read_urdf(
     solver: TreeSolver = ...,
     meshes: MeshUse = ...,
     srdf: str | os.PathLike[str] | None = None,
+    contact: ContactProperties | None = None,
+    floor: bool = False,
 ) -> ModelBuilder:
     """
     Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -2369,6 +2510,10 @@ def read_urdf(
         What becomes of collision meshes, where the file does not say it.
     srdf : str or os.PathLike, optional
         SRDF, a file or text: which links never collide.
+    contact : ContactProperties, optional
+        The default contact, in place of the file's own.
+    floor : bool
+        Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
 
     Returns
     -------
@@ -2606,6 +2751,35 @@ def solid_cylinder(
         Where the mass or a size is not finite and positive.
     """
 
+def solid_inertia(
+    mass: typing.SupportsFloat | typing.SupportsIndex,
+    shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
+) -> BodyInertia:
+    """
+    Inertia of a homogeneous solid, in its shape's frame.
+
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+
+    Returns
+    -------
+    BodyInertia
+        The centre of mass of a `Convex` need not be the origin.
+
+    Raises
+    ------
+    ModelError
+        On a `HalfSpace`, which has no end, and where the mass or a size is not finite and positive.
+
+    See Also
+    --------
+    volume : to get the mass from a density.
+    ModelBuilder.add_body : a link with a shape and this inertia, and its joint.
+    """
+
 def solid_sphere(
     mass: typing.SupportsFloat | typing.SupportsIndex,
     radius: typing.SupportsFloat | typing.SupportsIndex,
@@ -2652,6 +2826,25 @@ def states(
     ------
     ModelError
         On other shapes; on a value that is not finite, by row and coordinate.
+    """
+
+def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex) -> float:
+    """
+    Volume of a shape.
+
+    Parameters
+    ----------
+    shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+
+    Returns
+    -------
+    float
+        [m^3]
+
+    Raises
+    ------
+    ModelError
+        On a `HalfSpace`, which has no end, and where a size is not finite and positive.
     """
 
 __version__: str = "0.1.0"
