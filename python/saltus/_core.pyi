@@ -98,7 +98,7 @@ class ModelError(ValueError):
 
     element: typing.ClassVar[str] = ""
     name: typing.ClassVar[str] = ""
-    trajectory = None
+    trajectory: typing.Any
 
 class StepError(RuntimeError):
     """
@@ -119,7 +119,7 @@ class StepError(RuntimeError):
     iterations: typing.ClassVar[int] = 0
     residual: typing.ClassVar[float]
     t: typing.ClassVar[float]
-    trajectory = None
+    trajectory: typing.Any
 
 class JammedError(StepError):
     """
