@@ -7,7 +7,7 @@
 
 namespace saltus::turn_series {
 
-constexpr double small = 0.09;  ///< x below which they are summed
+inline constexpr double small = 0.09;  ///< x below which they are summed
 
 /// sum of k[i] x^i.
 template <std::size_t N>
@@ -18,20 +18,23 @@ constexpr double sum(const std::array<double, N>& k, double x) {
 }
 
 // b = sum (-x)^k / (2k + 2)!, c = sum (-x)^k / (2k + 3)!, their derivatives by t over t.
-constexpr std::array b = {1. / 2, -1. / 24, 1. / 720, -1. / 40320, 1. / 3628800, -1. / 479001600};
-constexpr std::array c = {1. / 6,       -1. / 120,     1. / 5040,
-                          -1. / 362880, 1. / 39916800, -1. / 6227020800};
-constexpr std::array b1 = {-2. / 24, 4. / 720, -6. / 40320, 8. / 3628800, -10. / 479001600};
-constexpr std::array c1 = {-2. / 120, 4. / 5040, -6. / 362880, 8. / 39916800, -10. / 6227020800};
+inline constexpr std::array b = {1. / 2,      -1. / 24,     1. / 720,
+                                 -1. / 40320, 1. / 3628800, -1. / 479001600};
+inline constexpr std::array c = {1. / 6,       -1. / 120,     1. / 5040,
+                                 -1. / 362880, 1. / 39916800, -1. / 6227020800};
+inline constexpr std::array b1 = {-2. / 24, 4. / 720, -6. / 40320, 8. / 3628800, -10. / 479001600};
+inline constexpr std::array c1 = {-2. / 120, 4. / 5040, -6. / 362880, 8. / 39916800,
+                                  -10. / 6227020800};
 // sin(t/2) / t and cos(t/2).
-constexpr std::array sine = {1. / 2,       -1. / 48,       1. / 3840,
-                             -1. / 645120, 1. / 185794560, -1. / 81749606400};
-constexpr std::array cosine = {
+inline constexpr std::array sine = {1. / 2,       -1. / 48,       1. / 3840,
+                                    -1. / 645120, 1. / 185794560, -1. / 81749606400};
+inline constexpr std::array cosine = {
     1., -1. / 8, 1. / 384, -1. / 46080, 1. / 10321920, -1. / 3715891200, 1. / 1961990553600};
 // ((t/2) / sin(t/2) - 1) / x and tan(t/4) / t.
-constexpr std::array arc1 = {1. / 24,          7. / 5760,        31. / 967680,
-                             127. / 154828800, 73. / 3503554560, 1414477. / 2678117105664000};
-constexpr std::array arc2 = {1. / 4,        1. / 192,        1. / 7680,
-                             17. / 5160960, 31. / 371589120, 691. / 326998425600};
+inline constexpr std::array arc1 = {1. / 24,          7. / 5760,
+                                    31. / 967680,     127. / 154828800,
+                                    73. / 3503554560, 1414477. / 2678117105664000};
+inline constexpr std::array arc2 = {1. / 4,        1. / 192,        1. / 7680,
+                                    17. / 5160960, 31. / 371589120, 691. / 326998425600};
 
 }  // namespace saltus::turn_series

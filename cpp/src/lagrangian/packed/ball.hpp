@@ -40,7 +40,7 @@ SALTUS_INLINE void for_each_turn(const PackedGroup& g, const Packed& w, double t
       const int z = g.slot(k + 2) + b, last = g.width == 1 ? 1 : lanes;
       const double *rx = at(w.s_dot, g.slot(k) + b), *ry = at(w.s_dot, g.slot(k + 1) + b);
       const double* rz = at(w.s_dot, z);
-      double x[lanes];
+      double x[lanes] = {};
       bool all_small = true;
       SALTUS_LANES
       for (int l = 0; l < last; ++l) {
