@@ -50,6 +50,11 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
   constexpr int most_iterations = 8;
   const double start = shadow_mismatch(model, options, node, f);
   double slope = node.launch.n.dot(node.v), mismatch = start, total = 0;
+  // 1e-15: the rounding of the energies that the mismatch is a difference of
+  const auto is_rounding = [&](double x) {
+    return std::abs(x) <= 1e-15 * (f.meter->energy.kinetic + std::abs(f.meter->energy.potential));
+  };
+  if (is_rounding(start)) return true;
   if (f.active > 0 || !(node.launch.normal_energy > std::abs(start)) || !(slope > 0)) return false;
   for (int k = 0; k < most_iterations; ++k) {
     const double delta = -mismatch / slope;
@@ -57,15 +62,12 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
     total += delta;
     const bool solved = solve_flight_arc(model, options, left, node, f);
     const double after = solved ? shadow_mismatch(model, options, node, f) : infinity;
-    // 1e-15: the rounding of the energies that the mismatch is a difference of
-    const double size = f.meter->energy.kinetic + std::abs(f.meter->energy.potential);
-    const bool done =
-        std::abs(after) <= 1e-15 * size || !(std::abs(after) < std::abs(mismatch) / 2);
+    const bool done = is_rounding(after) || !(std::abs(after) < std::abs(mismatch) / 2);
     slope = (after - mismatch) / delta;
     mismatch = after;
     if (done) break;
   }
-  if (std::abs(mismatch) <= 1e-3 * std::abs(start)) return true;
+  if (is_rounding(mismatch) || std::abs(mismatch) <= 1e-3 * std::abs(start)) return true;
   kick(model, -total, node, f);
   solve_flight_arc(model, options, left, node, f);
   return false;
