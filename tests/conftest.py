@@ -11,6 +11,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -28,6 +29,11 @@ hypothesis.settings.register_profile(
     "saltus", deadline=None, derandomize="CI" in os.environ, print_blob=True
 )
 hypothesis.settings.load_profile("saltus")
+
+# A shell that runs us in the background has us ignore SIGINT, and so would the programs that tests
+# of Ctrl-C start: whoever handles a signal starts programs with its default.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def tool(name: str) -> str | None:
