@@ -109,7 +109,7 @@ void bind_urdf(py::module_& m) {
         py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
         py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
         py::arg_v("srdf", py::none(), "None"), py::arg_v("contact", py::none(), "None"),
-        py::arg("floor") = UrdfOptions{}.floor);
+        py::arg("floor").noconvert() = UrdfOptions{}.floor);
 }
 
 }  // namespace saltus::bindings

@@ -196,7 +196,7 @@ def _is_index(value: object) -> bool:
 TESTS: dict[str, Callable[[object], bool]] = {
     "None": lambda value: value is None,
     "str": lambda value: isinstance(value, str),
-    "bool": lambda value: value is None or hasattr(value, "__bool__"),
+    "bool": lambda value: isinstance(value, bool | np.bool_),
     "typing.SupportsFloat": _is_float,
     "typing.SupportsInt": _is_index,
     "typing.SupportsIndex": lambda _: False,  # stands beside one of the two before

@@ -173,6 +173,13 @@ def test_nothing_said_of_a_floor_is_a_warning():
         floor_and("a").set_default_contact(restitution=1, friction=0).build()
 
 
+@pytest.mark.parametrize("height", [0.0, 0.5, 1])
+def test_floor_of_load_urdf_is_no_height(height):
+    """Neither is 0.0 no floor, nor 0.5 a floor at 0."""
+    with pytest.raises(TypeError, match=rf"floor = {height} \(.*\), which is no bool"):
+        saltus.load_urdf(BALL, root_joint=JointType.floating, floor=height)
+
+
 def test_urdf_options_come_before_the_file(tmp_path):
     said = "<saltus><contact restitution='0.1' friction='0.1'/><half_space name='ground'/></saltus>"
     path = tmp_path / "ball.urdf"
