@@ -43,7 +43,7 @@ certify : bool
 max_iterations : int
     Newton iterations an arc; 2 to 4 are usual.
 max_impacts : int
-    Impacts a step; more is a body bouncing faster than h can follow.
+    Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
 max_impulses : int
     Impulses an impact.
 rest : float

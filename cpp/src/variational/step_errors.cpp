@@ -85,4 +85,18 @@ void Stepper::Impl::fail_impacts() const {
   throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
 }
 
+void Stepper::Impl::fail_arcs() const {
+  std::ostringstream text;
+  text << "more than " << options.max_impacts
+       << " arcs without an impact in the step from t = " << last.t << " s, the last of "
+       << flight.arc.tau << " s at t = " << node.t << " s";
+  if (flight.closing >= 0) {
+    text << "; sought last was when " << model.pair_name(node.pool.number(flight.closing))
+         << " closes";
+  }
+  text << "; a smaller h or a slightly other start may pass by, or a larger max_impacts if this is "
+          "meant";
+  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+}
+
 }  // namespace saltus

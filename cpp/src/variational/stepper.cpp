@@ -156,8 +156,12 @@ void Stepper::Impl::arrive(double t) {
       fail(FlightOutcome::friction_not_settled);
     }
   }
-  if (!impact_pending(node)) return;
-  if (static_cast<int>(report.impacts.size()) == options.max_impacts) fail_impacts();
+  const int impacts = static_cast<int>(report.impacts.size());
+  if (!impact_pending(node)) {  // gaps that graze 0 may stop arc after arc where none closes
+    if (report.arcs - impacts > options.max_impacts) fail_arcs();
+    return;
+  }
+  if (impacts == options.max_impacts) fail_impacts();
   if (!resolve_node_impact(*model, options, conserved_energy(), node, report)) fail_jammed();
   flight.history.clear();
 }

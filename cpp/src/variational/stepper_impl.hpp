@@ -32,6 +32,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail(FlightOutcome outcome) const;
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
+  [[noreturn]] void fail_arcs() const;
   std::string contact_list() const;
   std::string fast_joint() const;
 
