@@ -13,7 +13,7 @@ UP, DURATION = 50.0, 10.0  # it comes back to about where it was thrown from
 
 
 def biped() -> saltus.Model:
-    """A trunk on two legs like Cassie's: balls for hips; hinges for knees and ankles."""
+    """Build a trunk on two legs like Cassie's: balls for hips; hinges for knees and ankles."""
     builder = saltus.ModelBuilder("biped")
     builder.add_body("trunk", saltus.Box((0.1, 0.15, 0.25)), mass=20, X=saltus.Pose((0, 0, 1)))
     bone = saltus.solid_box(4, (0.04, 0.04, 0.17)).seen_from(saltus.Pose((0, 0, -0.2)))
