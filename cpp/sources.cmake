@@ -98,7 +98,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/friction_arc.cpp
   cpp/src/variational/friction.cpp
   cpp/src/variational/generalized_reflections.cpp
-  cpp/src/variational/grip.cpp
+  cpp/src/variational/friction_scratch.cpp
   cpp/src/variational/holds.cpp
   cpp/src/variational/impact.cpp
   cpp/src/variational/impact_time.cpp
@@ -111,7 +111,6 @@ set(SALTUS_SOURCES
   cpp/src/variational/pair_pool.cpp
   cpp/src/variational/pile.cpp
   cpp/src/variational/pile_island.cpp
-  cpp/src/variational/redundant.cpp
   cpp/src/variational/slip_blocks.cpp
   cpp/src/variational/small_qp.cpp
   cpp/src/variational/step_errors.cpp

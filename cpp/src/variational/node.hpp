@@ -15,7 +15,7 @@
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/report.hpp"
 #include "variational/contact_vector.hpp"
-#include "variational/grip.hpp"
+#include "variational/friction_scratch.hpp"
 #include "variational/pair_pool.hpp"
 
 namespace saltus {

@@ -126,7 +126,6 @@ bool settle_with_friction(const ModelData& model, Node& node) {
     }
   }
   s.residual = std::max(s.residual, settle_for_sure(s.W, s.pile, s.u, s.p).excess);
-  polish(s.W, s.polish, s.u, s.p);
   for (std::size_t i = 0; i < s.contact.size(); ++i) {
     const Contact& c = node.contacts[s.contact[i]];
     apply(c, s.p[i], node);

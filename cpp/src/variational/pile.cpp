@@ -96,13 +96,15 @@ bool PileIsland::solve_slope() {
   return true;
 }
 
-/// Newton's method for one round, from s.z on. @return iterations
+/// Newton's method for one round, from z = 0 on. @return iterations
 int PileIsland::solve_round(double rho, bool& ended) {
+  const double size_before = size_of_impulses();
+  std::fill(s_.z.begin(), s_.z.end(), 0.0);
   double f = set_F(rho, s_.z, s_.F);
   const double start = f;
   ended = false;
   for (int iteration = 0; iteration < most_newton; ++iteration) {
-    const double size = Eigen::Map<Eigen::RowVectorXd>(s_.z.data(), r_).norm();
+    const double size = size_before + Eigen::Map<Eigen::RowVectorXd>(s_.z.data(), r_).norm();
     ended = f <= 1e-14 * size || f <= 1e-8 * start;
     if (ended) return iteration;
     set_slope(rho);
@@ -138,22 +140,14 @@ Settled PileIsland::settle(double part, std::vector<Vec3>& u, std::vector<Vec3>&
   return out;
 }
 
-/// p_k - rho u_0. What L leaves of u_0 + W p - u is rounding, and not summed up.
+/// p_k - rho u_k.
 void PileIsland::set_base(double rho) {
-  for (int i = 0; i < k_; ++i) {
-    Vec3 Lz;
-    const int first = s_.first[i], n = s_.last[i] - first;
-    for (int rate = 0; rate < 3; ++rate) {
-      Lz[rate] = row_of_L(3 * i + rate).segment(first, n).dot(Row(s_.z.data() + first, n));
-    }
-    s_.base[i] = s_.p[i] - rho * (s_.u[i] - Lz);
-  }
+  for (int i = 0; i < k_; ++i) s_.base[i] = s_.p[i] - rho * s_.u[i];
 }
 
 /// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or ends
 /// farther from the law
 bool PileIsland::take_round(double rho, Settled& out) {
-  set_z();
   set_base(rho);
   bool ended = false;
   out.iterations += solve_round(rho, ended);
@@ -185,7 +179,9 @@ Settled PileIsland::settle_scaled(double part) {
   double rho = stiff_rho, best = out.residual;
   int idle = 0;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
+    const int before = out.iterations;
     const bool taken = take_round(rho, out);
+    const bool easy = out.iterations - before <= 2;
     if (!taken && out.residual < 1e-12) break;  // rounding
     if (out.residual < best / 2) {
       best = out.residual;
@@ -193,7 +189,7 @@ Settled PileIsland::settle_scaled(double part) {
     } else if (++idle == (out.excess <= 0 || rho > stiff_rho ? 3 : most_idle)) {
       break;  // rounding of gaps, or rates that no impulses can end
     }
-    rho = taken ? std::min(4 * rho, most_rho) : round == 0 ? soft : rho / 8;
+    rho = taken ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
   }
   return out;
 }

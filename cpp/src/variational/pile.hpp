@@ -11,14 +11,16 @@
 //   p_k+1 = P(p_k - rho (u_0 + W p_k+1))      (the proximal point method, R. T. Rockafellar 1976)
 //
 // which has one solution where rho is small, and whose rounds end where the law holds exactly. With
-// W = L K^T (L = K where W is symmetric) and z = K^T p the unknowns are as few as the rates that do
-// not follow from others:
+// W = L K^T (L = K where W is symmetric) and z = K^T (p_k+1 - p_k) the unknowns are as few as the
+// rates that do not follow from others:
 //
-//   F(z) = z - K^T P(p_k - rho (u_0 + L z)) = 0,   F' = 1 + rho K^T P' L
+//   F(z) = z - K^T (P(p_k - rho (u_k + L z)) - p_k) = 0,   F' = 1 + rho K^T P' L
 //
-// by Newton's method with backtracking on |F|. The first rho is large: one round is enough where it
-// is known who sticks and who slides. Then rho grows where Newton's method ends nearer to the law;
-// where not, the round is taken back, and rho shrinks.
+// Near the law u_k of what sticks is as small as what is still missing, and so is the rounding of
+// rho u_k: the last digits need no other method. F = 0 is solved by Newton's method with
+// backtracking on |F|. The first rho is large: one round is enough where it is known who sticks and
+// who slides. Then rho grows where Newton's method ends nearer to the law; where not, the round is
+// taken back, and rho shrinks.
 // Impulses and rates are scaled by sqrt(W_ii), so that light and heavy bodies count alike.
 #pragma once
 

@@ -125,18 +125,20 @@ PileResidual PileIsland::residual() const {
   return sum;
 }
 
-void PileIsland::set_z() {
-  Eigen::Map<Eigen::RowVectorXd> z(s_.z.data(), r_);
-  z.setZero();
+/// |K^T p|
+double PileIsland::size_of_impulses() {
+  Eigen::Map<Eigen::RowVectorXd> sum(s_.F.data(), r_);
+  sum.setZero();
   for (int i = 0; i < k_; ++i) {
     const int first = s_.first[i], n = s_.last[i] - first;
     for (int rate = 0; rate < 3; ++rate) {
-      z.segment(first, n) += s_.p[i][rate] * row_of_K(3 * i + rate).segment(first, n);
+      sum.segment(first, n) += s_.p[i][rate] * row_of_K(3 * i + rate).segment(first, n);
     }
   }
+  return sum.norm();
 }
 
-/// F(z); the impulses in s.q, and what they are cut from in s.trial. s.base is p_k - rho u_0.
+/// F(z); the impulses in s.q, and what they are cut from in s.trial. s.base is p_k - rho u_k.
 double PileIsland::set_F(double rho, const std::vector<double>& at, std::vector<double>& out) {
   const Eigen::Map<const Eigen::RowVectorXd> z(at.data(), r_);
   Eigen::Map<Eigen::RowVectorXd> F(out.data(), r_);
@@ -150,7 +152,8 @@ double PileIsland::set_F(double rho, const std::vector<double>& at, std::vector<
     s_.trial[i] = a;
     s_.q[i] = to_cone(a, s_.friction[i]);
     for (int rate = 0; rate < 3; ++rate) {
-      F.segment(first, n) -= s_.q[i][rate] * row_of_K(3 * i + rate).segment(first, n);
+      F.segment(first, n) -=
+          (s_.q[i][rate] - s_.p[i][rate]) * row_of_K(3 * i + rate).segment(first, n);
     }
   }
   return F.norm();

@@ -58,7 +58,7 @@ class PileIsland {
   void set_slope(double rho);
   bool solve_slope();
   int solve_round(double rho, bool& ended);
-  void set_z();
+  double size_of_impulses();
 
   const ContactBlocks& W_;
   int begin_, k_;  ///< contacts
