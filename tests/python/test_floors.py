@@ -24,6 +24,32 @@ FLOORS["rollout"] = FLOORS["variational"] | {"variational"}
 FLOORS["urdf"] = FLOORS["model"] | {"model"}
 FLOORS["saltus"] = set(FLOORS)  # the umbrella header
 
+# Rooms of a floor: a file includes its own room and those before it. Headers that users include have
+# no folders; here is whose they are.
+ROOMS: dict[str, dict[str, set[str]]] = {
+    "collision": {
+        "shapes": {"shapes", "hull"},
+        "gap": {"gap", "pair"},
+        "convex": set(),
+        "pairs": set(),
+        "parts": {"parts"},
+        "contact": {"contact", "slip"},
+        "watch": {"ball_tree", "broad_phase", "pair_table"},
+        "chord": {"chord"},
+    },
+    "variational": {
+        "terms": {"energies", "impact_problem", "options", "report"},
+        "law": {"cascade", "friction"},
+        "uniqueness": {"certificate", "outcomes"},
+        "overlap": {"overlap"},
+        "node": set(),
+        "arc": set(),
+        "impact": set(),
+        "flight": set(),
+        "step": {"stepper"},
+    },
+}
+
 INCLUDE_LINE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 MAX_FILE_LINES = 300
 MAX_FUNCTION_LINES = 60
@@ -58,14 +84,26 @@ def floor_of(path: Path) -> str:
     return path.relative_to(base).parts[0].removesuffix(".hpp").removesuffix(".cpp")
 
 
+def room_of(path: Path) -> str | None:
+    """Return the room of a file of a floor that has rooms, None where it is in none."""
+    rooms = ROOMS[floor_of(path)]
+    if path.is_relative_to(INCLUDE):
+        return next((room for room, headers in rooms.items() if path.stem in headers), None)
+    return room if (room := path.relative_to(SRC).parts[1]) in rooms else None
+
+
+def included_file(path: Path, name: str) -> Path | None:
+    """Return the file of ours that an include names, None if it is somebody else's."""
+    if name.startswith("saltus/"):
+        return INCLUDE / name.removeprefix("saltus/")
+    candidates = (path.parent / name, SRC / name)
+    return next((each.resolve() for each in candidates if each.exists()), None)
+
+
 def included_floor(path: Path, name: str) -> str | None:
     """Return the floor that an include of ours names, None if it is somebody else's."""
-    if name.startswith("saltus/"):
-        return floor_of(INCLUDE / name.removeprefix("saltus/"))
-    for candidate in (path.parent / name, SRC / name):
-        if candidate.exists():
-            return floor_of(candidate.resolve())
-    return None
+    included = included_file(path, name)
+    return None if included is None else floor_of(included)
 
 
 def blank_comments_and_strings(text: str) -> str:
@@ -136,6 +174,25 @@ def test_includes_never_point_up():
             other = included_floor(path, name)
             if other is not None and other != own and other not in FLOORS[own]:
                 wrong.append(f"{relative(path)}: floor {own!r} must not include {name}")
+    assert not wrong, "\n".join(wrong)
+
+
+def test_includes_stay_in_rooms_or_go_down():
+    wrong = []
+    in_rooms = (p for p in CPP_FILES if p.is_relative_to(INCLUDE) or p.is_relative_to(SRC))
+    for path in (p for p in in_rooms if floor_of(p) in ROOMS):
+        floor, own = floor_of(path), room_of(path)
+        order = list(ROOMS[floor])
+        if own is None:
+            wrong.append(f"{relative(path)} is in no room; rooms are {', '.join(order)}")
+            continue
+        for name in INCLUDE_LINE.findall(path.read_text()):
+            included = included_file(path, name)
+            if included is None or floor_of(included) != floor:
+                continue
+            other = room_of(included)
+            if other is None or order.index(other) > order.index(own):
+                wrong.append(f"{relative(path)}: room {own!r} must not include {name} of {other!r}")
     assert not wrong, "\n".join(wrong)
 
 

@@ -3,7 +3,7 @@
 
 #include "saltus/rollout/batch.hpp"
 #include "saltus/rollout/trajectory.hpp"
-#include "variational/energy_meter.hpp"
+#include "variational/arc/energy_meter.hpp"
 
 namespace saltus {
 

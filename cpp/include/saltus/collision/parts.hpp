@@ -18,7 +18,8 @@
 
 #include <string>
 
-#include "saltus/collision/contact.hpp"
+#include "saltus/collision/gap.hpp"
+#include "saltus/collision/pair.hpp"
 
 namespace saltus {
 

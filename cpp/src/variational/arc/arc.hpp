@@ -1,0 +1,157 @@
+// One arc of the discrete motion: solve for its velocity.
+//
+// Theory, section 3 and O; paper (9), (11a), (11c), (11d), (12). An arc (q, v, tau) starts at q,
+// ends at q (+) tau v, and is evaluated at q_mid = q (+) tau v / 2. Unknown is v, so tau = 0 is
+// regular:
+//
+//   p_start = L_v - tau/2 L_q     = p + sum lambda_i n_i           all partials at (q_mid, v)
+//   p_end   = L_v + tau/2 L_q     = p_start + tau L_q
+//   E_d     = v.L_v - L           = T + V
+//
+// For balls L_v and L_q are the L_v' and L_q' of packed.hpp. A ball may turn by less than 2 pi in
+// an arc: the equation has a pole there, and farther than that its residual counts as infinite.
+//
+// Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
+//   hold    phi(q (+) tau v) = target     a sustained contact; n = phi_q at the arc's start
+//   launch  E_d = target                the paper's (11c) after an impact along n
+//
+// The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
+// (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
+//
+//   E_d     = T + V + c (v.kappa_v - kappa) + tau^2 kappa / 12
+//
+// Newton's matrix stays that of L: the rest is O(h^2), so that each iteration gains five digits at
+// h = 0.01 instead of doubling them.
+//
+// p_end is taken from the second form, p_start + tau L_q, so that the momentum of a coordinate
+// that L does not depend on is conserved to the last bit.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "saltus/lagrangian/shadow.hpp"
+#include "saltus/model/model.hpp"
+#include "saltus/variational/options.hpp"
+#include "variational/law/coulomb.hpp"
+#include "variational/law/small_system.hpp"
+
+namespace saltus {
+
+struct ArcConstraint {
+  enum class Kind { hold, launch };
+  Kind kind = Kind::hold;
+  int place = -1;              ///< of the pair in the stepper's pool (hold)
+  const Pair* pair = nullptr;  ///< likewise
+  bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
+  Pair face;
+  double target = 0;  ///< [m] or [J]
+  double lambda = 0;  ///< [N s] guess in, solution out
+  VecX n;             ///< (n_v) direction of the force
+  VecX row, column;   ///< (n_v) scratch: dc/dv and J^-1 n
+  // where there is friction
+  int axis = 0;                    ///< of the tangents
+  Vec2 tangential = Vec2::Zero();  ///< [N s] friction, along them at the arc's start
+
+  const Pair& watched() const { return in_face ? face : *pair; }
+};
+
+struct ArcProblem {
+  const VecX& q;
+  const VecX& p;
+  double tau;
+  std::span<ArcConstraint> constraints;
+  double whole = 0;  ///< [s] the step h that the arc is a part of, under `compensated`; else 0
+};
+
+/// ArcProblem::whole of these options.
+inline double whole_step(const StepOptions& options) {
+  return options.law == ImpactLaw::compensated ? options.h : 0;
+}
+
+struct Arc {
+  double tau = 0;
+  VecX v;        ///< guess in, solution out
+  VecX q_start;  ///< where it starts
+  VecX q_end, p_end;
+  double residual = 0;  ///< scaled by the size of the terms it is a difference of
+  int iterations = 0;
+};
+
+/// What `compensated` adds to L at (q_mid, v): c kappa.
+struct Compensation {
+  explicit Compensation(const ModelData& model);
+  PackedMatrix M;
+  FreeMotion free;
+  ShadowTerm shadow;
+  double c = 0;  ///< [s^2]
+};
+
+/// Workspace, and what the last solve left: w at (q_mid, v).
+struct ArcScratch {
+  ArcScratch(const ModelData& model, ImpactLaw law);
+  std::optional<Compensation> compensation;
+  Packed w;
+  bool has_second = false;  ///< second_pass sums in place: once an evaluation
+  PackedMatrix J;
+  PackedProducts products;
+  Packed w_end;        ///< written by place_end
+  Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
+  VecX q;              ///< (n_q) scratch: where the arc is evaluated, or ends
+  VecX L_v, L_q;       ///< (n_v) of the arc: of balls L_v', L_q'
+  VecX r, scale, dv, x;
+};
+
+/// @return false when it does not converge within options.max_iterations; `arc` then holds the
+/// best residual and the iterations spent.
+bool solve_arc(const ModelData& model, const ArcProblem& problem, const StepOptions& options,
+               Arc& arc, ArcScratch& s);
+
+/// Poses at q_end in s.w_end.
+void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s);
+
+/// Gap of a pair there; add_gap_gradient with s.kin_end may follow. Needs place_end.
+Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
+
+/// The same in the middle of the arc that was evaluated last.
+Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s);
+
+/// Second partials at the last evaluation, into s.w.
+inline void set_second_partials(const ModelData& model, ArcScratch& s) {
+  if (!s.has_second) second_pass(model.packed, s.w);
+  s.has_second = true;
+}
+
+/// What solve_arc is made of, for closing_arc.cpp and slip_blocks.cpp.
+///
+/// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
+/// scaled size, infinity where it is not a number.
+/// @param keep_scale of the evaluation before, whose v was nearly this one
+double momentum_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
+                         ArcScratch& s, bool keep_scale = false);
+
+/// True where a residual is rounding: at the floor, or small and no longer falling.
+bool is_converged(double residual, double before);
+
+/// Writes arc.q_start, q_end and p_end from the last evaluation.
+void finish_arc(const ModelData& model, const ArcProblem& problem, Arc& arc, const ArcScratch& s);
+
+/// E_d [J] of an arc just solved.
+double arc_energy(const ModelData& model, const ArcProblem& problem, const Arc& arc, ArcScratch& s);
+
+/// dv/dtau of an arc, constraints left aside: v' = -J^-1 dp_start/dtau. Needs the factors of J in
+/// s. Result in `rate` (n_v).
+void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate);
+
+/// The same, factors and all, for an arc just solved.
+void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate);
+
+/// The ball that turns farthest in time tau at velocity v, -1 where there is none, and by how much.
+struct FastestTurn {
+  int ball = -1;     ///< index in tree.balls
+  double angle = 0;  ///< [rad]
+};
+FastestTurn fastest_turn(const Tree& tree, const VecX& v, double tau);
+
+}  // namespace saltus

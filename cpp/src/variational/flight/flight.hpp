@@ -1,0 +1,82 @@
+// A flight: the arc from a node up to the first impact, or to the end of the step.
+//
+// Paper, section III-B, III-C; theory, section 4. The arc over the whole remaining time is tried;
+// if a gap closes on its chord, the time of the impact is the root of
+//
+//   g(tau) = phi(q (+) tau v(tau)) = 0,   g' = n.(v + tau v'),   v' = -J^-1 dp_start/dtau
+//
+// with v(tau) from the arc equation itself, by safeguarded Newton. The shortened arc is tried
+// again, until its chord is clear: no impact inside a step is missed, and none is taken too late.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "saltus/variational/options.hpp"
+#include "variational/arc/arc.hpp"
+#include "variational/arc/energy_meter.hpp"
+#include "variational/arc/guess.hpp"
+#include "variational/node/node.hpp"
+
+namespace saltus {
+
+/// Rows T of a hold in the middle of the arc, and J^-1 of those at its start.
+struct SlipRows {
+  VecX t0, t1, column0, column1;  ///< (n_v)
+};
+
+/// Scratch of friction_arc.cpp; empty without friction.
+struct SlipScratch {
+  explicit SlipScratch(bool with_friction) : friction(with_friction) {}
+  FrictionScratch friction;   ///< of the holds; `contact` are their constraints
+  std::vector<SlipRows> row;  ///< of the holds
+  std::vector<Vec3> before;   ///< impulses
+  double tau = 0;             ///< [s] the arc that the impulses of the holds are over
+  double residual = 0;        ///< of Coulomb's law, in the arc just solved
+  VecX p;                     ///< (n_v) the node's with all impulses, written by set_slip_rates
+  VecX size;                  ///< (n_v) of all that is summed up in it, likewise
+};
+
+struct Flight {
+  Flight(const ModelData& model, const StepOptions& options, bool with_friction);
+
+  Arc arc;  ///< the result
+  GuessHistory history;
+  int closing = -1;          ///< place of the pair whose impact was sought last
+  int iterations = 0;        ///< Newton iterations of all arcs tried
+  double settling_time = 0;  ///< [s] from the node, of the pair that settles
+  bool has_rate = false;     ///< `rate` is v' of the arc, which ends where a gap closes
+
+  std::vector<Settling> settlings;  ///< appended to; `pair` is a place in the pool
+
+  // scratch
+  ArcScratch scratch;
+  BroadPhase broad;
+  /// A pool, of most_constraints + 1, or with friction as many as contacts ask for; `active` are
+  /// used.
+  std::vector<ArcConstraint> constraints;
+  int active = 0;
+  std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
+  VecX rate, start_v, before_v, n;
+  std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
+  std::vector<char> flips;   ///< (pairs) how often held and released in this flight
+  std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
+  SlipScratch slip;
+};
+
+enum class FlightOutcome {
+  arrived,
+  not_converged,
+  too_many_contacts,
+  no_progress,
+  impact_not_located,    ///< of the pair flight.closing
+  friction_not_settled,  ///< likewise
+};
+
+/// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs
+/// that it holds closed are marked in node.held.
+/// @param fallback set where options.law could not be met and nodal_energy was used
+FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
+                  Flight& flight, bool& fallback);
+
+}  // namespace saltus

@@ -1,0 +1,32 @@
+// The arc that leaves an impact, under the laws that make it match an energy.
+//
+// nodal_energy has its impulses in closed form. The others change the last strong impulse of the
+// cascade by some delta n, so that an energy of what follows is that of what came before:
+//
+//   discrete_energy  E_d of the arc; paper, (11c). One more equation of the arc itself
+//   compensated      the same, of arcs of L + (h^2 - tau^2) kappa / 24
+//   shadow_energy    H - h^2 kappa / 24 at the end of the step; a root in delta alone
+//
+// An impulse too weak to carry the difference stays as it is (theory, section 5, warning a).
+#pragma once
+
+#include "variational/flight/flight.hpp"
+
+namespace saltus {
+
+/// With memory for all that a constraint may come to hold.
+ArcConstraint fresh_constraint(const ModelData& model);
+
+/// A fresh constraint of the next arcs; needs room in the pool.
+ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target);
+
+/// Meets node.launch by the arc over `left`, which is solved without it in flight.arc.
+/// @return false where that was not possible; flight.arc is then as it was.
+bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
+            Flight& flight);
+
+/// Gives the energy of the launch up where an arc that matches it has no end: the next arc is
+/// solved from the node anew. @return false where flight.arc has no launch to match
+bool drop_launch(const Node& node, Flight& flight);
+
+}  // namespace saltus

@@ -1,0 +1,84 @@
+#include "variational/law/contact_problem.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "saltus/error.hpp"
+
+namespace saltus {
+namespace {
+
+/// Of |v|_M sqrt(G_ii), the greatest rate that this kinetic energy allows: the rounding of u.
+constexpr double relative_rest = 1e-13;
+
+void check_arrays(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
+                  const VecRef& v) {
+  std::ostringstream text;
+  const auto n = v.size();
+  if (M.rows() != n || M.cols() != n) {
+    text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << n << " entries, so M is ("
+         << n << ", " << n << ")";
+  } else if (N.cols() != n && N.rows() > 0) {
+    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << n
+         << " entries, so N is (contacts, " << n << "), a row a contact";
+  } else if (!M.allFinite() || !N.allFinite() || !v.allFinite()) {
+    text << "M, N or v holds a value that is not finite";
+  } else if ((M - M.transpose()).norm() > 1e-12 * M.norm()) {
+    text << "M is not symmetric: it differs from its transpose by " << (M - M.transpose()).norm();
+  }
+  if (!text.str().empty()) throw ModelError(text.str());
+}
+
+void check_contacts(const Eigen::Ref<const MatX>& N, const VecRef& restitution) {
+  const auto m = N.rows();
+  std::ostringstream text;
+  if (restitution.size() != m) {
+    text << "restitution has " << restitution.size() << " entries; N has " << m
+         << " rows, a row a contact";
+    throw ModelError(text.str());
+  }
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (!(N.row(i).norm() > 0)) {
+      text << "row " << i << " of N is zero: no normal";
+    } else if (!(restitution[i] >= 0 && restitution[i] <= 1)) {
+      text << "restitution " << restitution[i] << " of contact " << i << " is outside [0, 1]";
+    }
+    if (!text.str().empty()) throw ModelError(text.str());
+  }
+}
+
+}  // namespace
+
+ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
+                               const VecRef& v, const VecRef& restitution) {
+  check_arrays(M, N, v);
+  check_contacts(N, restitution);
+  const Eigen::LLT<Eigen::MatrixXd> llt(M);
+  if (llt.info() != Eigen::Success) throw ModelError("M is not positive definite");
+  ContactProblem out;
+  out.speed = std::sqrt(std::max(0.0, v.dot(M * v)));
+  if (N.rows() == 0) return out;
+  out.columns = llt.solve(N.transpose());
+  const MatX product = N * out.columns;
+  out.G = 0.5 * (product + product.transpose());
+  out.u = N * v;
+  out.rest = relative_rest * out.speed * out.G.diagonal().array().sqrt();
+  return out;
+}
+
+MatX dense_part(const ContactMatrix& G, const std::vector<int>& part) {
+  const auto m = static_cast<Eigen::Index>(part.size());
+  MatX dense = MatX::Zero(m, m);
+  for (Eigen::Index row = 0; row < m; ++row) {
+    const int i = part[static_cast<std::size_t>(row)];
+    for (int k = G.start[i]; k < G.start[i + 1]; ++k) {
+      const auto at = std::lower_bound(part.begin(), part.end(), G.column[k]);
+      if (at != part.end() && *at == G.column[k]) dense(row, at - part.begin()) = G.value[k];
+    }
+  }
+  return dense;
+}
+
+}  // namespace saltus

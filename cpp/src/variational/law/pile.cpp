@@ -1,0 +1,251 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "variational/law/pile_island.hpp"
+
+namespace saltus {
+namespace {
+
+constexpr double settled = 1e-15;  ///< residual that is rounding
+constexpr int most_rounds = 80;    ///< 5 to 20 are usual
+constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
+constexpr int most_idle = 40;      ///< rounds that halve nothing
+constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e8;
+
+int root_of(int i, std::vector<int>& island) {
+  while (island[i] != i) i = island[i] = island[island[i]];
+  return i;
+}
+
+/// Contacts in the order of their islands.
+void sort_by_island(const ContactBlocks& W, PileScratch& s) {
+  const int m = W.size();
+  s.island.resize(static_cast<std::size_t>(m));
+  std::iota(s.island.begin(), s.island.end(), 0);
+  for (int i = 0; i < m; ++i) {
+    for (int e = W.start[i]; e < W.start[i + 1]; ++e) {
+      const int a = root_of(i, s.island), b = root_of(W.contact[e], s.island);
+      s.island[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (int i = 0; i < m; ++i) s.island[i] = root_of(i, s.island);
+  s.order.resize(s.island.size());
+  std::iota(s.order.begin(), s.order.end(), 0);
+  std::sort(s.order.begin(), s.order.end(), [&](int a, int b) {
+    return s.island[a] != s.island[b] ? s.island[a] < s.island[b] : a < b;
+  });
+}
+
+}  // namespace
+
+/// H = 1 + rho K^T P' L at s.trial.
+void PileIsland::set_slope(double rho) {
+  std::fill(s_.H.begin(), s_.H.end(), 0.0);
+  for (int c = 0; c < r_; ++c) s_.H[static_cast<std::size_t>(c) * r_ + c] = 1;
+  for (int i = 0; i < k_; ++i) {
+    Mat3 D;
+    to_cone(s_.trial[i], s_.friction[i], &D);
+    if (D.isZero(0)) continue;
+    const int first = s_.first[i], n = s_.last[i] - first;
+    for (int a = 0; a < 3; ++a) {
+      Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
+      x.setZero();
+      for (int b = 0; b < 3; ++b) {
+        if (D(a, b) != 0) x += rho * D(a, b) * row_of_L(3 * i + b).segment(first, n);
+      }
+    }
+    for (int a = 0; a < 3; ++a) {
+      const Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
+      const Row y = row_of_K(3 * i + a);
+      for (int c = first; c < s_.last[i]; ++c) {
+        if (y[c] != 0)
+          Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_ + first, n) += y[c] * x;
+      }
+    }
+  }
+}
+
+/// dz = -H^-1 F, by elimination with pivots; rows that have nothing there are left alone.
+bool PileIsland::solve_slope() {
+  const auto row = [&](int c) {
+    return Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_, r_);
+  };
+  for (int c = 0; c < r_; ++c) s_.dz[c] = -s_.F[c];
+  for (int c = 0; c < r_; ++c) {
+    int pivot = c;
+    for (int i = c + 1; i < r_; ++i) {
+      if (std::abs(row(i)[c]) > std::abs(row(pivot)[c])) pivot = i;
+    }
+    if (!(std::abs(row(pivot)[c]) > 0)) return false;
+    if (pivot != c) {
+      row(c).swap(row(pivot));
+      std::swap(s_.dz[c], s_.dz[pivot]);
+    }
+    for (int i = c + 1; i < r_; ++i) {
+      const double factor = row(i)[c] / row(c)[c];
+      if (factor == 0) continue;
+      row(i).tail(r_ - c - 1) -= factor * row(c).tail(r_ - c - 1);
+      s_.dz[i] -= factor * s_.dz[c];
+    }
+  }
+  for (int c = r_ - 1; c >= 0; --c) {
+    const Row x(s_.dz.data(), r_);
+    s_.dz[c] = (s_.dz[c] - row(c).tail(r_ - c - 1).dot(x.tail(r_ - c - 1))) / row(c)[c];
+  }
+  return true;
+}
+
+/// Newton's method for one round, from z = 0 on. @return iterations
+int PileIsland::solve_round(double rho, bool& ended) {
+  const double size_before = size_of_impulses();
+  std::fill(s_.z.begin(), s_.z.end(), 0.0);
+  double f = set_F(rho, s_.z, s_.F);
+  const double start = f;
+  ended = false;
+  for (int iteration = 0; iteration < most_newton; ++iteration) {
+    const double size = size_before + Eigen::Map<Eigen::RowVectorXd>(s_.z.data(), r_).norm();
+    ended = f <= 1e-14 * size || f <= 1e-8 * start;
+    if (ended) return iteration;
+    set_slope(rho);
+    if (!solve_slope()) return iteration;
+    double part = 1, after = 0;
+    for (int k = 0; k < 8; ++k, part /= 2) {
+      for (int c = 0; c < r_; ++c) s_.z_new[c] = s_.z[c] + part * s_.dz[c];
+      after = set_F(rho, s_.z_new, s_.F_new);
+      if (after < f * (1 - 1e-4 * part)) break;
+    }
+    if (!(after < f)) {  // rounding, or a kink that Newton's direction does not lead over
+      ended = f <= 1e-11 * size;
+      return iteration;
+    }
+    s_.z.swap(s_.z_new);
+    s_.F.swap(s_.F_new);
+    f = after;
+  }
+  return most_newton;
+}
+
+Settled PileIsland::settle(double part, std::vector<Vec3>& u, std::vector<Vec3>& p) {
+  set_sizes();
+  for (int i = 0; i < k_; ++i) {
+    s_.u[i] = s_.scale[i] * u[contact(i)];
+    s_.p[i] = p[contact(i)] / s_.scale[i];
+  }
+  const Settled out = settle_scaled(part);
+  for (int i = 0; i < k_; ++i) {
+    u[contact(i)] = s_.u[i] / s_.scale[i];
+    p[contact(i)] = s_.p[i] * s_.scale[i];
+  }
+  return out;
+}
+
+/// p_k - rho u_k.
+void PileIsland::set_base(double rho) {
+  for (int i = 0; i < k_; ++i) s_.base[i] = s_.p[i] - rho * s_.u[i];
+}
+
+/// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or ends
+/// farther from the law
+bool PileIsland::take_round(double rho, Settled& out) {
+  set_base(rho);
+  bool ended = false;
+  out.iterations += solve_round(rho, ended);
+  if (!ended) return false;
+  set_F(rho, s_.z, s_.F);
+  for (int i = 0; i < k_; ++i) s_.trial[i] = s_.q[i] - s_.p[i];
+  s_.u_before = s_.u;
+  feel(s_.trial);
+  s_.p.swap(s_.q);
+  const PileResidual now = residual();
+  if (now.worst < out.worst) {
+    out = {now.part(), now.worst, out.iterations};
+    return true;
+  }
+  s_.p.swap(s_.q);
+  s_.u.swap(s_.u_before);
+  return false;
+}
+
+/// s.u are the rates with s.p in place.
+Settled PileIsland::settle_scaled(double part) {
+  const PileResidual start = residual();
+  Settled out{start.part(), start.worst, 0};
+  const double enough = std::max(settled, part * out.residual);
+  if (out.residual <= settled) return out;
+  factorize();
+  // far from the law softly, near it not; at once where it is known what each contact does
+  const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
+  double rho = stiff_rho, best = out.residual;
+  int idle = 0;
+  for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
+    const int before = out.iterations;
+    const bool taken = take_round(rho, out);
+    const bool easy = out.iterations - before <= 2;
+    if (!taken && out.residual < 1e-12) break;  // rounding
+    if (out.residual < best / 2) {
+      best = out.residual;
+      idle = 0;
+    } else if (++idle == (out.excess <= 0 || rho > stiff_rho ? 3 : most_idle)) {
+      break;  // rounding of gaps, or rates that no impulses can end
+    }
+    rho = taken ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
+  }
+  return out;
+}
+
+void PileScratch::reserve(std::size_t k) {
+  for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
+  for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
+  for (auto* each : {&u, &u_before, &p, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
+  DL.reserve(9 * k);
+  for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
+  pivot.reserve(3 * k);
+}
+
+double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& p) {
+  const double scale = scale_of(W.own[i]);
+  PileResidual one;
+  one.add(scale * u, p / scale, W.friction[i], 0);
+  return one.worst;
+}
+
+Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
+                        const std::vector<Vec3>& p) {
+  PileResidual sum;
+  for (int i = 0; i < W.size(); ++i) {
+    const double scale = scale_of(W.own[i]);
+    sum.add(scale * u[i], p[i] / scale, W.friction[i], scale * W.rest[i]);
+  }
+  return sum.part();
+}
+
+Settled settle_pile(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
+                    std::vector<Vec3>& p, double part) {
+  Settled out;
+  sort_by_island(W, s);
+  const int m = W.size();
+  for (int begin = 0, end = 0; begin < m; begin = end) {
+    while (end < m && s.island[s.order[end]] == s.island[s.order[begin]]) ++end;
+    PileIsland island(W, begin, end, s);
+    const Settled one = island.settle(part, u, p);
+    out.residual = std::max(out.residual, one.residual);
+    out.excess = std::max(out.excess, one.excess);
+    out.iterations += one.iterations;
+  }
+  return out;
+}
+
+Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3>& u,
+                        std::vector<Vec3>& p, double part) {
+  const double before = lawlessness(W, u, p).residual;
+  const Settled first = settle_pile(W, s, u, p, part);
+  if (first.least() <= small_residual || (part > 0 && first.least() < before / 2)) return first;
+  // sweeps lead out of where Newton's method turns in a circle
+  const int most_sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
+  settle(W, most_sweeps, u, p);
+  return settle_pile(W, s, u, p, part);
+}
+
+}  // namespace saltus

@@ -1,0 +1,69 @@
+// One island of a pile: contacts that feel each other's impulses. For pile.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "variational/law/pile.hpp"
+
+namespace saltus {
+
+/// P(a), and its derivative where asked for.
+Vec3 to_cone(const Vec3& a, double friction, Mat3* D = nullptr);
+
+/// Contacts are scaled so that W_ii = 1 at most.
+inline double scale_of(const Mat3& own) { return 1 / std::sqrt(own.diagonal().maxCoeff()); }
+
+using Row = Eigen::Map<Eigen::RowVectorXd>;
+
+/// Lawlessness of scaled contacts.
+struct PileResidual {
+  double worst = 0, excess = 0, size = 0;
+  void add(const Vec3& u, const Vec3& p, double friction, double rest) {
+    const double off = (to_cone(p - u, friction) - p).cwiseAbs().maxCoeff();
+    worst = std::max(worst, off);
+    excess = std::max(excess, off - rest);
+    size = std::max({size, p.cwiseAbs().maxCoeff(), u.cwiseAbs().maxCoeff()});
+  }
+  Lawlessness part() const {
+    return size > 0 ? Lawlessness{worst / size, excess / size} : Lawlessness{};
+  }
+};
+
+/// One island: the k contacts in s.order from `begin` on.
+class PileIsland {
+ public:
+  PileIsland(const ContactBlocks& W, int begin, int end, PileScratch& s)
+      : W_(W), begin_(begin), k_(end - begin), s_(s) {}
+
+  Settled settle(double part, std::vector<Vec3>& u, std::vector<Vec3>& p);
+
+ private:
+  Settled settle_scaled(double part);
+  bool take_round(double rho, Settled& out);
+  void set_base(double rho);
+  int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
+  Row row_of(std::vector<double>& matrix, int i) {
+    return {matrix.data() + static_cast<std::ptrdiff_t>(i) * 3 * k_, 3 * k_};
+  }
+  Row row_of_L(int i) { return row_of(s_.L, i); }
+  Row row_of_K(int i) { return row_of(s_.K, i); }
+  void set_sizes();
+  void set_W();
+  void factorize();
+  void add_rate(int i, int rate);
+  void feel(const std::vector<Vec3>& dp);
+  PileResidual residual() const;
+  double set_F(double rho, const std::vector<double>& z, std::vector<double>& F);
+  void set_slope(double rho);
+  bool solve_slope();
+  int solve_round(double rho, bool& ended);
+  double size_of_impulses();
+
+  const ContactBlocks& W_;
+  int begin_, k_;  ///< contacts
+  int r_ = 0;      ///< columns of L and K
+  PileScratch& s_;
+};
+
+}  // namespace saltus

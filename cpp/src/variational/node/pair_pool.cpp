@@ -1,0 +1,74 @@
+#include "variational/node/pair_pool.hpp"
+
+#include <algorithm>
+
+#include "saltus/collision/parts.hpp"
+
+namespace saltus {
+namespace {
+
+constexpr int few = 50'000;  ///< some 500 bytes each
+constexpr std::size_t first_slots = 4096;
+constexpr int many = 1'000'000;
+
+/// The parts of two shapes are met one after the other.
+bool are_same_shapes(const Pair& x, const Pair& y) {
+  return std::minmax(x.a, x.b) == std::minmax(y.a, y.b);
+}
+
+}  // namespace
+
+PairPool::PairPool(const ModelData& model) : all_(model.pairs.size() <= few) {
+  if (!all_) table_.assign(first_slots, {0, -1});
+  for (int k = 0; all_ && k < model.pairs.size(); ++k) add(model, k);
+}
+
+void PairPool::add(const ModelData& model, int number) {
+  const PairTable::Key key = model.pairs.key(number);
+  Pair pair = make_pair(model.tree, model.shapes, key.a, key.b, key.part);
+  const bool parts = model.pairs.count(key.a, key.b) > 1;
+  if (parts && (pair_.empty() || !are_same_shapes(pair_.back(), pair))) {
+    solid_.push_back(make_solid_pair(model.tree, model.shapes, key.a, key.b));
+  }
+  pair_.push_back(std::move(pair));
+  number_.push_back(number);
+  solid_of_.push_back(parts ? static_cast<int>(solid_.size()) - 1 : -1);
+}
+
+int PairPool::place_of(const ModelData& model, int pair) {
+  if (all_) return pair;
+  const std::size_t slot = slot_of(pair);
+  if (table_[slot].place >= 0) return table_[slot].place;
+  table_[slot] = {pair, size()};
+  add(model, pair);
+  if (2 * number_.size() > table_.size()) grow_table();
+  return size() - 1;
+}
+
+std::size_t PairPool::slot_of(int pair) const {
+  const std::size_t mask = table_.size() - 1;
+  std::size_t slot = static_cast<unsigned>(pair) * 0x9E3779B97F4A7C15u >> 20 & mask;
+  while (table_[slot].place >= 0 && table_[slot].number != pair) slot = (slot + 1) & mask;
+  return slot;
+}
+
+void PairPool::grow_table() {
+  const std::vector<Entry> before = std::move(table_);
+  table_.assign(2 * before.size(), {0, -1});
+  for (const Entry& entry : before) {
+    if (entry.place >= 0) table_[slot_of(entry.number)] = entry;
+  }
+}
+
+bool PairPool::is_full() const { return !all_ && size() > many; }
+
+void PairPool::clear() {
+  if (all_) return;
+  pair_.clear();
+  number_.clear();
+  solid_.clear();
+  solid_of_.clear();
+  table_.assign(first_slots, {0, -1});
+}
+
+}  // namespace saltus

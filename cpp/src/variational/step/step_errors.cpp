@@ -1,0 +1,102 @@
+// What a step that fails says.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "variational/step/stepper_impl.hpp"
+
+namespace saltus {
+
+std::string Stepper::Impl::contact_list() const {
+  std::vector<std::string> names;
+  for (int i = 0; i < node.touching; ++i)
+    names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
+  return list_names(names);
+}
+
+/// The ball joint that turns farthest in an arc, if it is half a turn or more.
+std::string Stepper::Impl::fast_joint() const {
+  const FastestTurn fastest = fastest_turn(model->tree, node.v, flight.arc.tau);
+  if (!(fastest.angle > std::numbers::pi)) return {};
+  const int velocity = model->tree.balls[fastest.ball].velocity;
+  std::ostringstream text;
+  for (const JointInfo& joint : model->joints) {
+    const auto& own = joint.velocities;
+    if (std::find(own.begin(), own.end(), velocity) == own.end()) continue;
+    text << "; joint \"" << joint.name << "\" turns by " << fastest.angle << " rad in one arc of "
+         << flight.arc.tau << " s, and can by less than 2 pi";
+  }
+  return text.str();
+}
+
+void Stepper::Impl::fail(FlightOutcome outcome) const {
+  std::ostringstream text;
+  const Arc& arc = flight.arc;
+  switch (outcome) {
+    case FlightOutcome::too_many_contacts:
+      text << "more than " << most_constraints << " sustained contacts at t = " << node.t
+           << " s: " << contact_list();
+      break;
+    case FlightOutcome::impact_not_located:
+      text << "the time after t = " << node.t << " s at which "
+           << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
+      break;
+    case FlightOutcome::friction_not_settled:
+      text << "friction at t = " << node.t
+           << " s: " << model.pair_name(node.pool.number(flight.closing))
+           << " neither sticks nor slides, it is off Coulomb's law by "
+           << std::max(flight.slip.residual, node.friction.residual)
+           << " of the largest impulse; a smaller h helps where it turns fast" << fast_joint();
+      break;
+    case FlightOutcome::no_progress:
+      text << "contacts at t = " << node.t
+           << " s keep closing and opening within one arc: " << contact_list();
+      break;
+    default:
+      text << "DEL residual " << arc.residual << " after " << arc.iterations
+           << " iterations at t = " << node.t << " s, arc of " << arc.tau
+           << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
+      text << fast_joint();
+  }
+  throw StepError(text.str(), node.t, arc.residual, arc.iterations);
+}
+
+void Stepper::Impl::fail_jammed() {
+  set_contact_matrix(*model, node);
+  if (has_friction(node) && can_open(node)) {
+    flight.closing = node.contacts[0].pair;
+    fail(FlightOutcome::friction_not_settled);
+  }
+  std::ostringstream text;
+  text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
+       << " impulses: "
+       << (can_open(node) ? "more may do (max_impulses) at "
+                          : "no motion opens all of, jammed are ")
+       << contact_list();
+  throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
+}
+
+void Stepper::Impl::fail_impacts() const {
+  std::ostringstream text;
+  text << "more than " << options.max_impacts << " impacts in the step from t = " << last.t
+       << " s, at t = " << node.t << " s between " << contact_list()
+       << "; a smaller h, or a larger max_impacts if this is meant";
+  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+}
+
+void Stepper::Impl::fail_arcs() const {
+  std::ostringstream text;
+  text << "more than " << options.max_impacts
+       << " arcs without an impact in the step from t = " << last.t << " s, the last of "
+       << flight.arc.tau << " s at t = " << node.t << " s";
+  if (flight.closing >= 0) {
+    text << "; sought last was when " << model.pair_name(node.pool.number(flight.closing))
+         << " closes";
+  }
+  text << "; a smaller h or a slightly other start may pass by, or a larger max_impacts if this is "
+          "meant";
+  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+}
+
+}  // namespace saltus

@@ -1,0 +1,203 @@
+#include "variational/step/stepper_impl.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "variational/flight/arrival.hpp"
+#include "variational/flight/friction_arc.hpp"
+#include "variational/flight/impact_time.hpp"
+#include "variational/step/contact_report.hpp"
+#include "variational/terms/check_options.hpp"
+
+namespace saltus {
+
+namespace {
+
+/// [h] What an event so near the step's end leaves of it is not flown with contacts held: they
+/// would take the rounding of gaps out within no time.
+constexpr double no_duration = 1e-12;
+
+/// The gradient of kappa is there for one-degree joints alone.
+void check_law(const ModelData& model, ImpactLaw law) {
+  if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
+  for (const JointInfo& joint : model.joints) {
+    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+    throw ModelError("law compensated is not for floating and spherical joints, as \"" +
+                         joint.name + "\" is; shadow_energy and discrete_energy are",
+                     "joint", joint.name);
+  }
+}
+
+}  // namespace
+
+Stepper::Stepper(const Model& model, const StepOptions& options) {
+  check_options(options);
+  check_law(*model, options.law);
+  impl_ = std::make_unique<Impl>(model, options);
+}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+const StepReport& Stepper::report() const { return impl_->report; }
+const Model& Stepper::model() const { return impl_->model; }
+const StepOptions& Stepper::options() const { return impl_->options; }
+
+State Stepper::advance(const State& state) {
+  State next = state;
+  impl_->step(next);
+  return next;
+}
+
+void Stepper::step(State& state) { impl_->step(state); }
+
+void Stepper::forget() { impl_->last_is_valid = false; }
+
+// The step: fly to the first impact, resolve it, go on for the time left.
+void Stepper::Impl::step(State& state) {
+  report.iterations = report.arcs = report.sustained = 0;
+  report.residual = report.friction_residual = node.friction.residual = 0;
+  report.impacts.clear();
+  report.impulses.clear();
+  report.contacts.clear();
+  node.closing.clear();
+  report.settlings.clear();
+  report.certificates.clear();
+  flight.settlings.clear();
+  if (!last_is_valid || !(state == last) || node.pool.is_full()) start(state);
+  last_is_valid = false;  // until this step is done
+  const double t_start = state.t, h = options.h;
+  for (double left = h; left > 0;) {
+    fly_one_arc(left);
+    left = flight.arc.tau < left ? left - flight.arc.tau : 0;
+    if (flight.active > 0 && left < no_duration * h) left = 0;
+    arrive(t_start + (h - left));
+  }
+  finish();
+  state = last;
+}
+
+void Stepper::Impl::start(const State& state) {
+  const VecX q = model.checked_q(state.q, "state.q");
+  check_vector(state.p, model.n_v(), "state.p", "velocities");
+  if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
+  last_is_valid = false;
+  last = state;
+  last.q = q;
+  flight.history.clear();
+  flight.has_rate = false;
+  node.launch.pending = false;
+  node.launch.change = 0;
+  start_anew(node.broad);
+  start_anew(flight.broad);
+  if (node.pool.is_full()) forget_pairs(node);
+  std::fill(node.held.begin(), node.held.end(), 0);
+  ++node.friction.flight;  // what friction did before is no guess
+  node.t = state.t;
+  node.q = q;
+  node.p = state.p;
+  if (!start_from_momenta(*model, node) || !find_contacts(*model, options, node)) {
+    fail(FlightOutcome::not_converged);
+  }
+  check_overlap();
+  if (impact_pending(node)) arrive(state.t);
+}
+
+void Stepper::Impl::check_overlap() const {
+  std::ostringstream text;
+  int found = 0;
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    // 100 touches (1e-8 of the shapes' size): what a state written with 8 digits loses
+    if (c.phi >= -100 * node.pool[c.pair].touch) continue;
+    if (++found <= 5) {
+      text << (found > 1 ? ", " : "") << model.pair_name(node.pool.number(c.pair)) << " by "
+           << -c.phi << " m";
+    }
+  }
+  if (found == 0) return;
+  if (found > 5) text << " and " << found - 5 << " pairs more";
+  throw ModelError("bodies overlap at the start: " + text.str() +
+                   "; move them apart (resolve_overlap does), exclude the pair, or step without "
+                   "collisions");
+}
+
+void Stepper::Impl::fly_one_arc(double left) {
+  bool fallback = false;
+  const FlightOutcome outcome = fly(*model, options, left, node, flight, fallback);
+  report.iterations += flight.iterations;
+  flight.iterations = 0;
+  report.residual = std::max(report.residual, flight.arc.residual);
+  if (outcome != FlightOutcome::arrived) fail(outcome);
+  for (const Settling& each : flight.settlings) {
+    report.settlings.push_back({each.t, node.pool.number(each.pair)});
+  }
+  flight.settlings.clear();
+  if (fallback && !report.impacts.empty()) {
+    report.impacts.back().fallback = true;
+    report.impacts.back().law = ImpactLaw::nodal_energy;
+  }
+  report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
+  ++report.arcs;
+  report.sustained += flight.active;
+  tell_launch(flight, node, report);
+  tell_holds(node, flight, report);
+  flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
+}
+
+// Ends the arc at a node, and resolves the impact there if there is one.
+void Stepper::Impl::arrive(double t) {
+  if (t > node.t || report.arcs > 0) {
+    if (!arrive_at_node(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
+    tell_closing(node, report);
+    report.friction_residual = std::max(report.friction_residual, node.friction.residual);
+    if (!(node.friction.residual <= large_residual)) {
+      flight.closing = node.contacts[node.friction.contact[0]].pair;
+      fail(FlightOutcome::friction_not_settled);
+    }
+  }
+  const int impacts = static_cast<int>(report.impacts.size());
+  if (!impact_pending(node)) {  // gaps that graze 0 may stop arc after arc where none closes
+    if (report.arcs - impacts > options.max_impacts) fail_arcs();
+    return;
+  }
+  if (impacts == options.max_impacts) fail_impacts();
+  if (!resolve_node_impact(*model, options, conserved_energy(), node, report)) fail_jammed();
+  flight.history.clear();
+}
+
+// What the law conserves, at the node before the impact.
+double Stepper::Impl::conserved_energy() {
+  if (options.law == ImpactLaw::shadow_energy) {
+    if (report.impacts.empty()) {  // what is left of it after the impacts of this step
+      if (!measure(*model, last.q, last.p, options.h, *flight.meter)) {
+        fail(FlightOutcome::not_converged);
+      }
+      node.launch.energy = flight.meter->energy.shadow;
+    }
+    return node.launch.energy;
+  }
+  if (options.law != ImpactLaw::discrete_energy && options.law != ImpactLaw::compensated) return 0;
+  if (report.arcs == 0) {  // at the start: an arc of no duration
+    flight.active = 0;
+    flight.arc.v = node.v;
+    if (!solve_flight_arc(*model, options, 0, node, flight)) fail(FlightOutcome::not_converged);
+  }
+  const ArcProblem problem{flight.arc.q_start, node.p, flight.arc.tau, {}, whole_step(options)};
+  return arc_energy(*model, problem, flight.arc, flight.scratch);
+}
+
+// A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.
+void Stepper::Impl::finish() {
+  if (node.launch.pending) {
+    fly_one_arc(0);
+    node.p = flight.arc.p_end;
+    node.v = flight.arc.v;
+  }
+  last.t = node.t;
+  last.q = node.q;
+  last.p = node.p;
+  last_is_valid = true;
+}
+
+}  // namespace saltus

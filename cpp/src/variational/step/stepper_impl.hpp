@@ -1,0 +1,48 @@
+// What a Stepper is made of, for stepper.cpp and step_errors.cpp.
+#pragma once
+
+#include <string>
+
+#include "saltus/variational/stepper.hpp"
+#include "variational/flight/flight.hpp"
+
+namespace saltus {
+
+struct Stepper::Impl {
+  Impl(const Model& with, const StepOptions& with_options)
+      : model(with_options.collisions ? with : with.without_collisions()),
+        options(with_options),
+        node(*model),
+        flight(*model, options, node.friction.any) {
+    last.q.setZero(model.n_q());
+    last.p.setZero(model.n_v());
+    report.impacts.reserve(64);
+    report.impulses.reserve(1024);
+    report.settlings.reserve(64);
+    report.contacts.reserve(64);
+  }
+
+  void step(State& state);
+  void start(const State& state);
+  void check_overlap() const;
+  void fly_one_arc(double left);
+  void arrive(double t);
+  double conserved_energy();
+  void finish();
+  [[noreturn]] void fail(FlightOutcome outcome) const;
+  [[noreturn]] void fail_jammed();
+  [[noreturn]] void fail_impacts() const;
+  [[noreturn]] void fail_arcs() const;
+  std::string contact_list() const;
+  std::string fast_joint() const;
+
+  Model model;
+  StepOptions options;
+  Node node;
+  Flight flight;
+  StepReport report;
+  State last;  // where the step starts; the node still holds it if the last step ended there
+  bool last_is_valid = false;
+};
+
+}  // namespace saltus
