@@ -31,6 +31,7 @@ set(SALTUS_SOURCES
   cpp/src/collision/shapes/shapes.cpp
   cpp/src/collision/gap/core.cpp
   cpp/src/collision/gap/curvature.cpp
+  cpp/src/collision/gap/pair.cpp
   cpp/src/collision/convex/convex_gap.cpp
   cpp/src/collision/convex/epa.cpp
   cpp/src/collision/convex/gjk.cpp

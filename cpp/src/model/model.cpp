@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "saltus/collision/contact.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus {

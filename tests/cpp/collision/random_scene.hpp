@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/collision/contact.hpp"
 #include "saltus/collision/pair_table.hpp"
 #include "saltus/tree/coordinates.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "saltus/collision/ball_tree.hpp"
 #include "saltus/collision/pair_table.hpp"
+#include "saltus/tree/kinematics.hpp"
 
 namespace saltus {
 

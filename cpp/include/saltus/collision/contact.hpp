@@ -9,16 +9,11 @@
 // with i at or nearer to b and C of the two features that face each other (gap.hpp).
 #pragma once
 
-#include <vector>
-
 #include "saltus/collision/gap.hpp"
 #include "saltus/collision/pair.hpp"
 #include "saltus/tree/kinematics.hpp"
 
 namespace saltus {
-
-/// Joints between two joint frames (-1: the world), ordered from b to a.
-SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a);
 
 /// Gap of a pair at the configuration in `kin`; see part_gap. Needs set_configuration.
 SALTUS_EXPORT Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair);

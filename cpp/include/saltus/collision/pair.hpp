@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "saltus/collision/shapes.hpp"
+#include "saltus/tree/tree.hpp"
 
 namespace saltus {
 
@@ -66,5 +67,8 @@ struct Pair {
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
 };
+
+/// Joints between two joint frames (-1: the world), ordered from b to a.
+SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a);
 
 }  // namespace saltus

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "collision/gap/point_distance.hpp"
+#include "saltus/tree/tree.hpp"
 
 namespace saltus {
 namespace {

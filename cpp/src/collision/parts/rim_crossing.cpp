@@ -20,6 +20,7 @@
 #include "collision/convex/meeting.hpp"
 #include "collision/gap/point_distance.hpp"
 #include "collision/parts/crossing.hpp"
+#include "saltus/tree/tree.hpp"
 
 namespace saltus {
 namespace {

@@ -1,4 +1,5 @@
 #include "collision/shapes/corners.hpp"
+#include "saltus/tree/tree.hpp"
 
 #include <cassert>
 #include <cmath>

@@ -31,6 +31,7 @@
 #include <span>
 #include <vector>
 
+#include "saltus/collision/contact.hpp"
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"

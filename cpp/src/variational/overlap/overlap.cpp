@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "saltus/collision/broad_phase.hpp"
+#include "saltus/collision/contact.hpp"
 #include "saltus/tree/coordinates.hpp"
 #include "variational/law/contact_qp.hpp"
 
