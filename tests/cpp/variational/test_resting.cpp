@@ -90,6 +90,31 @@ TEST(Resting, ABoxIsFourContactsAlwaysTheSameFour) {
   EXPECT_LE(r.drift, still);
 }
 
+/// What one body does is no affair of another that lies beside it, whose redundant corners share
+/// its weight in arcs of any length.
+TEST(Resting, ABoxLiesWhileAnotherTumbles) {
+  for (int i = 0; i < 8; ++i) {
+    ModelBuilder b("two");
+    b.add_floor().set_default_contact({0.5, 0});
+    b.add_body({.name = "thrown",
+                .shape = Box{{0.1, 0.2, 0.3}},
+                .mass = 1,
+                .X = {Mat3::Identity(), {0, 0, 1}}});
+    b.add_body({.name = "lies",
+                .shape = Box{Vec3::Constant(0.5)},
+                .mass = 1,
+                .X = {Mat3::Identity(), {3, 0, 0.5}}});
+    const Model model = b.build();
+    State state = model.state(
+        {},
+        {{"thrown_vx", 1}, {"thrown_wx", 5 - i}, {"thrown_wy", 1 + i % 3}, {"thrown_wz", i - 4}});
+    Stepper stepper(model, {.h = 0.005});
+    for (int k = 0; k < 400; ++k) stepper.step(state);
+    EXPECT_NEAR(state.q[9], 0, 1e-10);
+    EXPECT_LE(model.velocity(state).tail<6>().cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
 TEST(Resting, ABoxSlidesAndTurnsOnItsFourCorners) {
   const Model model = scene({box("block", {0.2, 0.15, 0.1}, {0, 0, 0.1})});
   const State start = model.state({}, {{"block_vx", 1}, {"block_wz", 2}});

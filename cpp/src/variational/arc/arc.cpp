@@ -82,7 +82,6 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
   for (const ArcConstraint& c : a.constraints) {
     s.r += c.lambda * c.n;
-    if (keep_scale) continue;
     s.scale +=
         std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
   }
@@ -122,9 +121,11 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   add_constraints(model, a, arc.v, s);
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
-  // v has changed by a part of `before`, and so have the terms: a scale is known well enough
+  // v has changed by a part of `before`, and so have the terms: a scale is known well enough.
+  // Forces of constraints may have come from nothing.
   constexpr double little = 1e-3;
-  double after = residual(model, a, arc.v, s, before < little);
+  const bool keep_scale = before < little && a.constraints.empty();
+  double after = residual(model, a, arc.v, s, keep_scale);
   // Newton's own direction shortens until the residual falls; 2^-12 of a step is no direction
   for (int k = 0; k < 12 && !(after < before) && before > 1e-10; ++k) {
     s.dv /= 2;
