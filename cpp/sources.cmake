@@ -89,7 +89,6 @@ set(SALTUS_SOURCES
   cpp/src/variational/law/generalized_reflections.cpp
   cpp/src/variational/law/pile.cpp
   cpp/src/variational/law/pile_island.cpp
-  cpp/src/variational/law/small_qp.cpp
   cpp/src/variational/uniqueness/certificate.cpp
   cpp/src/variational/uniqueness/coxeter.cpp
   cpp/src/variational/uniqueness/outcomes.cpp

@@ -1,4 +1,4 @@
-# Where Eigen, urdfdom, console_bridge, tinyxml2, Qhull, Assimp and ProxSuite come from.
+# Where Eigen, urdfdom, console_bridge, tinyxml2, Qhull and Assimp come from.
 #
 # A pip environment keeps C++ packages (named cmeel-*) below site-packages/cmeel.prefix, an ordinary CMake prefix
 # once it is known. Which site-packages, only a running Python can tell: pip's isolated builds put theirs on
@@ -24,7 +24,7 @@ function(saltus_find_cmeel_prefix)
 print((p.Path(s.origin).parent.parent / 'cmeel.prefix').as_posix() if s else '')")
   execute_process(COMMAND "${Python_EXECUTABLE}" -c "${_ask}"
     OUTPUT_VARIABLE _prefix OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  foreach(_part lib/urdfdom include/urdfdom_headers include/libqhull_r include/assimp include/proxsuite)
+  foreach(_part lib/urdfdom include/urdfdom_headers include/libqhull_r include/assimp)
     if(NOT EXISTS "${_prefix}/${_part}")
       set(_prefix "")
       break()
@@ -58,13 +58,5 @@ find_package(Qhull REQUIRED)
 find_package(assimp REQUIRED)
 # Assimp's own libraries (zlib, on Debian draco) are its shared library's affair: no need to have them for linking.
 set_property(TARGET assimp::assimp PROPERTY INTERFACE_LINK_LIBRARIES "")
-# ProxSuite is headers only. Its own config asks for what its Python module and its vectorised variant need; we don't.
-# No cache: the environment of an isolated build of pip is gone the next time.
-find_path(SALTUS_PROXSUITE_INCLUDE_DIR proxsuite/proxqp/dense/dense.hpp NO_CACHE)
-if(NOT SALTUS_PROXSUITE_INCLUDE_DIR)
-  message(FATAL_ERROR "ProxSuite not found: pip install proxsuite, or unpack https://github.com/Simple-Robotics/proxsuite "
-    "(headers only) and give -DSALTUS_PROXSUITE_INCLUDE_DIR=.../include")
-endif()
 message(STATUS "saltus: Eigen ${Eigen3_VERSION} in ${Eigen3_DIR}")
-message(STATUS "saltus: ProxSuite in ${SALTUS_PROXSUITE_INCLUDE_DIR}")
 message(STATUS "saltus: urdfdom ${urdfdom_VERSION} in ${urdfdom_DIR}")

@@ -15,6 +15,7 @@ namespace {
 void fit(int pairs, Flight& f) {
   if (static_cast<int>(f.passed.size()) >= pairs) return;
   f.passed.resize(static_cast<std::size_t>(pairs), 0);
+  f.passes.resize(static_cast<std::size_t>(pairs), 0);
   f.flips.resize(static_cast<std::size_t>(pairs), 0);
   f.level.resize(static_cast<std::size_t>(pairs), 0);
 }
@@ -118,6 +119,7 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
                     Flight& f) {
   fit(node.pool.size(), f);
   std::fill(f.passed.begin(), f.passed.end(), 0);
+  std::fill(f.passes.begin(), f.passes.end(), 0);
   std::fill(f.flips.begin(), f.flips.end(), 0);
   std::fill(f.level.begin(), f.level.end(), 0);
   f.active = 0;
@@ -126,6 +128,20 @@ FlightOutcome begin(const ModelData& model, const StepOptions& options, double l
   if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
   if (node.friction.any) recall_impulses(left, node, f);
   return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived : no_arc(node);
+}
+
+/// No impact of the pair is to be found on this arc.
+void let_pass(int pair, Flight& f) {
+  f.passed[pair] = 1;
+  ++f.passes[pair];
+}
+
+/// What may pass on one arc is watched on one that others hold. A few times: then it passes.
+void watch_again(Flight& f) {
+  constexpr char most_passes = 3;
+  for (std::size_t i = 0; i < f.passes.size(); ++i) {
+    if (f.passes[i] < most_passes) f.passed[i] = 0;
+  }
 }
 
 /// Complementarity of what is held, which friction has in its arcs; `settled` is false where the
@@ -187,10 +203,10 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
   if (found == ImpactTime::found) {
     // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far from
     // the origin the chord tells gaps apart no better than their rounding).
-    if (hop || f.arc.tau > tau * (1 - 1e-9)) f.passed[hit.pair] = 1;
+    if (hop || f.arc.tau > tau * (1 - 1e-9)) let_pass(hit.pair, f);
     return found;
   }
-  if (found == ImpactTime::missed) f.passed[hit.pair] = 1;
+  if (found == ImpactTime::missed) let_pass(hit.pair, f);
   if (found == ImpactTime::at_rest) {
     node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
   }
@@ -234,6 +250,7 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
       bool settled = true;
       outcome = update_contacts(model, node, f, settled);
       solved = false;
+      if (!settled) watch_again(f);
       if (!settled || outcome != FlightOutcome::arrived) continue;
       const FirstHit hit = first_hit(model, node, f);
       if (hit.pair < 0) {

@@ -58,7 +58,8 @@ struct Flight {
   int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
-  std::vector<char> passed;  ///< (pairs) no impact to be found in this flight
+  std::vector<char> passed;  ///< (pairs) no impact to be found, as long as contacts hold as now
+  std::vector<char> passes;  ///< (pairs) how often that was so in this flight
   std::vector<char> flips;   ///< (pairs) how often held and released in this flight
   std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
   SlipScratch slip;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "saltus/error.hpp"
-#include "variational/law/small_qp.hpp"
+#include "variational/law/pile.hpp"
 
 namespace saltus {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 using Mat = Eigen::MatrixXd;
 using Indices = std::vector<Eigen::Index>;
 
-constexpr double accuracy = 1e-10;  ///< of complementarity, what is asked of ProxQP and promised
-constexpr double rounding = 1e-14;  ///< no better can be had
+constexpr double accuracy = 1e-10;        ///< of complementarity, what is promised
+constexpr double rounding = 1e-14;        ///< no better can be had
 constexpr double rank_tolerance = 1e-11;  ///< as in small_system.hpp
 constexpr double no_interior = 1e-7;      ///< d^2 is known to a few 1e-16
 
@@ -29,13 +29,39 @@ Scaled scaled(const Eigen::Ref<const MatX>& G) {
   Scaled out;
   out.root = G.diagonal().array().rsqrt();
   const Mat product = out.root.asDiagonal() * G * out.root.asDiagonal();
-  out.G = 0.5 * (product + product.transpose());  // ProxQP wants it symmetric to the last bit
+  out.G = 0.5 * (product + product.transpose());
   return out;
 }
 
-VecX solve_nonnegative(const Mat& H, const VecX& g, const Mat& A, const VecX& b) {
-  const auto m = g.size();
-  return solve_qp(H, g, A, b, Mat::Identity(m, m), VecX::Zero(m)).cwiseMax(0.0);
+/// min over lambda >= 0 of  lambda . G lambda / 2 + u . lambda: contacts without friction that
+/// rest. Where G is 0 nothing can be done.
+VecX solve_nonnegative(const Mat& G, const VecX& u) {
+  constexpr double nothing = 1e-20;
+  ContactBlocks W;
+  std::vector<Vec3> rate, impulse;
+  Indices some;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (G(i, i) > nothing) some.push_back(i);
+  }
+  const auto block = [](double value) -> Mat3 { return value * Vec3::UnitX().asDiagonal(); };
+  for (const Eigen::Index by : some) {
+    W.start.push_back(static_cast<int>(W.contact.size()));
+    for (std::size_t at = 0; at < some.size(); ++at) {
+      if (G(some[at], by) == 0) continue;
+      W.contact.push_back(static_cast<int>(at));
+      W.block.push_back(block(G(some[at], by)));
+    }
+    W.own.push_back(block(G(by, by)));
+    W.friction.push_back(0);
+    rate.emplace_back(u[by], 0, 0);
+    impulse.emplace_back(Vec3::Zero());
+  }
+  W.start.push_back(static_cast<int>(W.contact.size()));
+  PileScratch scratch;
+  settle_pile(W, scratch, rate, impulse);
+  VecX lambda = VecX::Zero(u.size());
+  for (std::size_t i = 0; i < some.size(); ++i) lambda[some[i]] = std::max(impulse[i][0], 0.0);
+  return lambda;
 }
 
 /// How far lambda >= 0 is from 0 <= u + G lambda and complementarity.
@@ -66,11 +92,11 @@ VecX shortest(const Mat& G, const VecX& u) {
   const double size = lambda.cwiseAbs().maxCoeff();
   if (rank == m || lambda.minCoeff() >= -1e-12 * size) return lambda.cwiseMax(0.0);
   // Of all solutions the shortest has negative parts. That without them has zeros instead; which,
-  // ProxQP knows: lambda + Z y >= 0 with the shortest y, Z what G does not see (m, m - rank).
+  // the shortest y with lambda + Z y >= 0 tells, Z what G does not see (m, m - rank). Its dual is a
+  // problem of this kind: y = Z^T mu.
   const Mat Z = Eigen::SelfAdjointEigenSolver<Mat>(G).eigenvectors().leftCols(m - rank);
-  const VecX y = solve_qp(Mat::Identity(m - rank, m - rank), VecX::Zero(m - rank), Mat(0, m - rank),
-                          VecX(0), Z, -lambda / size);
-  lambda += size * Z * y;
+  const Mat ZZ = Z * Z.transpose();
+  lambda += size * ZZ * solve_nonnegative(ZZ, VecX(lambda / size));
   Indices some;
   for (Eigen::Index i = 0; i < m; ++i) {
     if (lambda[i] > 1e-8 * size) some.push_back(i);
@@ -103,7 +129,7 @@ struct Best {
 };
 
 /// Block principal pivoting (J. Judice and F. Pires, Computers & Operations Research 21, 1994), for
-/// masses so unlike that ProxQP's guess is not near enough: all contacts that are wrong change
+/// masses so unlike that the guess is not near enough: all contacts that are wrong change
 /// sides at once, and after a few rounds one at a time, which ends for certain if G is regular.
 void pivot(const Mat& G, const VecX& u, Best& best) {
   const auto m = u.size();
@@ -139,7 +165,7 @@ VecX contact_multipliers(const Eigen::Ref<const MatX>& G, const VecRef& u) {
   VecX rate = problem.root.cwiseProduct(u);
   const double size = rate.cwiseAbs().maxCoeff();
   rate /= size;
-  const VecX guess = solve_nonnegative(problem.G, rate, Mat(0, m), VecX(0));
+  const VecX guess = solve_nonnegative(problem.G, rate);
   Best best{guess, miss(problem.G, rate, guess)};
   // From loose to tight: a rate that is 0 is among those "at most 1e-4" however inexact the guess,
   // so that contacts alike are treated alike; one that is 1e-5 is told by the check.
@@ -165,7 +191,10 @@ double cone_interior(const Eigen::Ref<const MatX>& G) {
   const auto m = G.rows();
   if (m == 1) return 1;
   const Mat H = scaled(G).G;
-  const VecX guess = solve_nonnegative(H, VecX::Zero(m), Mat::Ones(1, m), VecX::Ones(1));
+  // least lambda . H lambda + (1 - sum of lambda)^2 without the simplex: shorter, the same
+  // direction
+  VecX guess = solve_nonnegative(H + Mat::Ones(m, m), VecX::Constant(m, -1));
+  guess /= guess.sum();
   // w = N^T lambda opens gap i at the rate (G lambda)_i / |w|: whatever lambda is, this is reached
   const auto reached = [&H](const VecX& lambda) {
     const VecX rate = H * lambda;

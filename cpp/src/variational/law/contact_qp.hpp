@@ -1,13 +1,12 @@
-// The two small convex problems of several contacts, by ProxQP (of ProxSuite): A. Bambade et al.,
-// "PROX-QP: Yet another Quadratic Programming Solver for Robotics and beyond", RSS 2022.
+// The two small convex problems of several contacts.
 //
 //   projection   min over lambda >= 0 of  lambda . G lambda / 2 + u . lambda,  the dual of
 //                min over w of  |w - v|_M^2 / 2  subject to  N w >= 0:  w = v + M^-1 N^T lambda
 //   interior     max over |w|_M <= 1 of  min_i n_i . w / sqrt(G_ii)
 //
-// ProxQP knows which contacts take part to about 1e-10; the numbers are then those of one direct
-// solve, and what comes back has been checked. Contacts are scaled to G_ii = 1 before, so that
-// light and heavy bodies count alike.
+// Which contacts take part, settle_pile (pile.hpp) says, of contacts without friction; the numbers
+// are then those of one direct solve, and what comes back has been checked. Contacts are scaled to
+// G_ii = 1 before, so that light and heavy bodies count alike.
 #pragma once
 
 #include "saltus/spatial/spatial.hpp"

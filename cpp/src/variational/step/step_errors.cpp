@@ -85,6 +85,19 @@ void Stepper::Impl::fail_impacts() const {
   throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
 }
 
+void Stepper::Impl::fail_energy(double gain) const {
+  std::ostringstream text;
+  text << "the arc up to t = " << node.t << " s gains " << gain << " J of " << kinetic
+       << " J, and contacts do no work: its equation was solved by another motion; held were ";
+  std::vector<std::string> names;
+  for (int i = 0; i < flight.active; ++i) {
+    if (flight.constraints[i].kind != ArcConstraint::Kind::hold) continue;
+    names.push_back(model.pair_name(node.pool.number(flight.constraints[i].place)));
+  }
+  text << list_names(names) << "; a smaller h helps, h = " << options.h << " s";
+  throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
+}
+
 void Stepper::Impl::fail_arcs() const {
   std::ostringstream text;
   text << "more than " << options.max_impacts

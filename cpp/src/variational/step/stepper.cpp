@@ -143,12 +143,26 @@ void Stepper::Impl::fly_one_arc(double left) {
   tell_launch(flight, node, report);
   tell_holds(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
+  if (flight.active == 0) return;
+  kinetic = 0.5 * node.p.dot(node.v);
+  energy = node_energy(*model, node);
+}
+
+/// Contacts do no work. An arc that they hold and that gains energy is another root of the arc's
+/// equation than the motion. Of 2062 arcs of fast chains the wrong roots had gained .86 of the
+/// kinetic energy and more, and less than 1 % of the right ones swung by .3.
+void Stepper::Impl::check_energy() const {
+  if (flight.active == 0 || node.launch.pending) return;
+  constexpr double most = 0.3;
+  const double gain = node_energy(*model, node) - energy;
+  if (gain > most * std::max(kinetic, 0.5 * node.p.dot(node.v))) fail_energy(gain);
 }
 
 // Ends the arc at a node, and resolves the impact there if there is one.
 void Stepper::Impl::arrive(double t) {
   if (t > node.t || report.arcs > 0) {
     if (!arrive_at_node(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
+    check_energy();
     tell_closing(node, report);
     report.friction_residual = std::max(report.friction_residual, node.friction.residual);
     if (!(node.friction.residual <= large_residual)) {

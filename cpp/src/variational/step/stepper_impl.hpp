@@ -27,12 +27,14 @@ struct Stepper::Impl {
   void check_overlap() const;
   void fly_one_arc(double left);
   void arrive(double t);
+  void check_energy() const;
   double conserved_energy();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome) const;
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
   [[noreturn]] void fail_arcs() const;
+  [[noreturn]] void fail_energy(double gain) const;
   std::string contact_list() const;
   std::string fast_joint() const;
 
@@ -43,6 +45,7 @@ struct Stepper::Impl {
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
+  double kinetic = 0, energy = 0;  // [J] where the arc started, if contacts held it
 };
 
 }  // namespace saltus
