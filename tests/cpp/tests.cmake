@@ -53,6 +53,11 @@ set(SALTUS_TEST_model
   model/test_solids.cpp
   model/test_solvers.cpp
 )
+# The law of contacts by itself; compiled with the sources of its room, which export little.
+set(SALTUS_TEST_law
+  law/test_project.cpp
+  law/test_settle.cpp
+)
 set(SALTUS_TEST_variational
   variational/test_ball_impacts.cpp
   variational/test_balls.cpp

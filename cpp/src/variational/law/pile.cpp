@@ -11,7 +11,7 @@ constexpr double settled = 1e-15;  ///< residual that is rounding
 constexpr int most_rounds = 80;    ///< 5 to 20 are usual
 constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
 constexpr int most_idle = 40;      ///< rounds that halve nothing
-constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e8;
+constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
 
 int root_of(int i, std::vector<int>& island) {
   while (island[i] != i) i = island[i] = island[island[i]];
@@ -145,8 +145,9 @@ void PileIsland::set_base(double rho) {
   for (int i = 0; i < k_; ++i) s_.base[i] = s_.p[i] - rho * s_.u[i];
 }
 
-/// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or ends
-/// farther from the law
+/// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or, with
+/// friction, ends farther from the law. Without, rounds end at it whatever it looks like on the
+/// way.
 bool PileIsland::take_round(double rho, Settled& out) {
   set_base(rho);
   bool ended = false;
@@ -158,7 +159,8 @@ bool PileIsland::take_round(double rho, Settled& out) {
   feel(s_.trial);
   s_.p.swap(s_.q);
   const PileResidual now = residual();
-  if (now.worst < out.worst) {
+  constexpr double not_much = 3;
+  if (is_convex_ || now.worst < not_much * out.worst) {
     out = {now.part(), now.worst, out.iterations};
     return true;
   }
@@ -176,28 +178,39 @@ Settled PileIsland::settle_scaled(double part) {
   factorize();
   // far from the law softly, near it not; at once where it is known what each contact does
   const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
-  double rho = stiff_rho, best = out.residual;
+  double rho = stiff_rho, halved = out.residual;
   int idle = 0;
+  Settled best = out;
+  s_.p_best = s_.p;
+  s_.u_best = s_.u;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
     const int before = out.iterations;
     const bool taken = take_round(rho, out);
     const bool easy = out.iterations - before <= 2;
     if (!taken && out.residual < 1e-12) break;  // rounding
-    if (out.residual < best / 2) {
-      best = out.residual;
+    if (out.residual < best.residual) {
+      best = out;
+      s_.p_best = s_.p;
+      s_.u_best = s_.u;
+    }
+    if (out.residual < halved / 2) {
+      halved = out.residual;
       idle = 0;
-    } else if (++idle == (out.excess <= 0 || rho > stiff_rho ? 3 : most_idle)) {
+    } else if (++idle == (out.excess <= 0 || (rho > stiff_rho && !is_convex_) ? 3 : most_idle)) {
       break;  // rounding of gaps, or rates that no impulses can end
     }
     rho = taken ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
   }
-  return out;
+  best.iterations = out.iterations;
+  s_.p.swap(s_.p_best);
+  s_.u.swap(s_.u_best);
+  return best;
 }
 
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
-  for (auto* each : {&u, &u_before, &p, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial}) each->reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);

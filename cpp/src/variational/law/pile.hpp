@@ -41,6 +41,7 @@ struct PileScratch {
   std::vector<double> W, L, K;                ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
   std::vector<double> H, DL;                  ///< (r, r) F', (3, r)
   std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
+  std::vector<Vec3> u_best, p_best;                  ///< (k) nearest to the law so far
   std::vector<double> z, z_new, dz, F, F_new;        ///< (r)
 
   void reserve(std::size_t contacts);

@@ -42,6 +42,7 @@ void PileIsland::set_sizes() {
     s_.place[contact(i)] = i;
     s_.scale[i] = scale_of(W_.own[contact(i)]);
     s_.friction[i] = W_.friction[contact(i)];
+    is_convex_ = is_convex_ && !(s_.friction[i] > 0);
     s_.rest[i] = W_.rest.empty() ? 0 : s_.scale[i] * W_.rest[contact(i)];
   }
 }

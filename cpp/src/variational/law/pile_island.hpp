@@ -61,8 +61,9 @@ class PileIsland {
   double size_of_impulses();
 
   const ContactBlocks& W_;
-  int begin_, k_;  ///< contacts
-  int r_ = 0;      ///< columns of L and K
+  int begin_, k_;          ///< contacts
+  int r_ = 0;              ///< columns of L and K
+  bool is_convex_ = true;  ///< no friction
   PileScratch& s_;
 };
 

@@ -154,8 +154,11 @@ void Stepper::Impl::fly_one_arc(double left) {
 void Stepper::Impl::check_energy() const {
   if (flight.active == 0 || node.launch.pending) return;
   constexpr double most = 0.3;
+  // slower is rest: what a step's gravity gives, and what the rounding of gaps does
+  const double slow = options.h * model->mass.gravity.norm() + node.most_touch / options.h;
+  const double least = 0.5 * node.total_mass * slow * slow;
   const double gain = node_energy(*model, node) - energy;
-  if (gain > most * std::max(kinetic, 0.5 * node.p.dot(node.v))) fail_energy(gain);
+  if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
 }
 
 // Ends the arc at a node, and resolves the impact there if there is one.

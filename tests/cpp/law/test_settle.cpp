@@ -1,0 +1,79 @@
+// Contacts that come to rest together, against the law's own conditions.
+#include <gtest/gtest.h>
+
+#include "random_contacts.hpp"
+#include "variational/law/pile.hpp"
+
+namespace saltus {
+namespace {
+
+/// How far rates and impulses are from Coulomb's law, condition by condition. Contacts are scaled
+/// so that a unit impulse changes a rate by 1 at most, and the whole by the largest of them.
+double miss(const ContactsAtOnce& c, const std::vector<Vec3>& p) {
+  const VecX rates = c.R * velocity_after(c, p);
+  double worst = 0, size = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double scale = 1 / std::sqrt(c.W.own[i].diagonal().maxCoeff());
+    const Vec3 u = scale * rates.segment<3>(3 * static_cast<Eigen::Index>(i)), q = p[i] / scale;
+    const double mu = c.W.friction[i], speed = u.tail<2>().norm(), push = q.tail<2>().norm();
+    size = std::max({size, u.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff()});
+    worst = std::max({worst, -q[0], -u[0], push - mu * q[0], std::min(u[0], q[0])});
+    // friction is at its limit, or nothing slides; it acts against what slides
+    worst = std::max(worst, std::min(speed, mu * q[0] - push));
+    const double along = u.tail<2>().dot(q.tail<2>());
+    if (speed > 0 && mu * q[0] > 0) worst = std::max(worst, std::min(speed, along / speed + push));
+  }
+  return size > 0 ? worst / size : 0;
+}
+
+struct Result {
+  Settled said;
+  double missed, gain;
+};
+
+Result settle_from_nothing(ContactsAtOnce c) {
+  PileScratch scratch;
+  std::vector<Vec3> u = c.u, p(u.size(), Vec3::Zero());
+  Result out{};
+  out.said = settle_for_sure(c.W, scratch, u, p);
+  out.missed = miss(c, p);
+  const double before = kinetic_energy(c, c.v);
+  out.gain = (kinetic_energy(c, velocity_after(c, p)) - before) / before;
+  return out;
+}
+
+constexpr int sizes[] = {1, 2, 3, 4, 6, 9, 14, 22, 34, 60};
+
+/// Without friction there is always an answer, however redundant, jammed or unlike.
+TEST(Settle, WithoutFrictionAlways) {
+  std::mt19937 random(1);
+  for (const int contacts : sizes) {
+    for (int trial = 0; trial < 12; ++trial) {
+      const RandomContacts of{contacts, 1 + trial % 4, trial % 3 * 1.5, 0, trial % 2 == 1};
+      const Result r = settle_from_nothing(random_contacts(of, random));
+      EXPECT_LE(r.said.residual, 1e-12) << contacts << " " << trial;
+      EXPECT_LE(r.missed, 1e-9) << contacts << " "
+                                << trial;  // masses are 1e3 apart: less its digits
+      EXPECT_LE(r.gain, 1e-12);
+    }
+  }
+}
+
+/// With friction there may be none, and finding one is no theorem: all of these have one, found.
+TEST(Settle, WithFrictionUpToTwo) {
+  std::mt19937 random(2);
+  for (const int contacts : sizes) {
+    for (int trial = 0; trial < 24; ++trial) {
+      const RandomContacts of{contacts, 1 + trial % 4, trial % 3 * 1.0, 1 + trial % 2 * 1.0,
+                              trial % 4 == 3};
+      const Result r = settle_from_nothing(random_contacts(of, random));
+      EXPECT_LE(r.said.excess, small_residual) << contacts << " " << trial;
+      // what it says, in other words: a residual of 1e-9 by unlike masses (1e2)
+      EXPECT_LE(r.missed, 1e-7) << contacts << " " << trial;
+      EXPECT_LE(r.gain, 1e-7);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace saltus
