@@ -80,13 +80,12 @@ from saltus._core import (
     solid_sphere,
     volume,
 )
-from saltus.batch import simulate_batch
-from saltus.batch_trajectory import BatchTrajectory
-from saltus.files import load
-from saltus.impacts import impact_table
 from saltus.paths import cmake_dir, urdf_dir
-from saltus.rollout import simulate
-from saltus.trajectory import Trajectory
+from saltus.records.impacts import impact_table
+from saltus.runs.batch import simulate_batch
+from saltus.runs.batch_trajectory import BatchTrajectory
+from saltus.runs.simulate import simulate
+from saltus.runs.trajectory import Trajectory, load
 from saltus.urdf import ModelWarning, load_urdf
 
 __all__ = [

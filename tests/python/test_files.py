@@ -8,7 +8,8 @@ import pytest
 from helpers import bouncing_ball, chain_on_a_body, cradle_run, puck
 
 import saltus
-from saltus.files import ARRAYS, NUMBERS, OPTIONS
+from saltus.records.files import OPTIONS
+from saltus.records.tables import ARRAYS, NUMBERS
 
 
 def assert_same(a: saltus.Trajectory, b: saltus.Trajectory) -> None:
@@ -198,7 +199,7 @@ def test_a_failed_save_leaves_the_old_file(tmp_path, monkeypatch):
     cradle_run().save(path)
     before = path.read_bytes()
     broken = saltus.simulate(cradle_run().model, duration=0.1)
-    monkeypatch.setattr("saltus.files.ARRAYS", ("t", "nonsense"))
+    monkeypatch.setattr("saltus.records.files.ARRAYS", ("t", "nonsense"))
     with pytest.raises(AttributeError):
         broken.save(path)
     assert path.read_bytes() == before

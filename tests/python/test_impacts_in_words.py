@@ -7,7 +7,7 @@ import pytest
 from helpers import bouncing_ball, cradle, cradle_run
 
 import saltus
-from saltus import impacts
+from saltus.records import impacts
 
 
 def made(pairs: list[str], lambdas: list[float], **rest: object) -> saltus.Impact:
