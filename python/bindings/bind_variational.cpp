@@ -32,11 +32,11 @@ Parameters
 ----------
 h : float
     [s] step.
-law : ImpactLaw or callable
+law : ImpactLaw, str or callable
     A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
 collisions : bool
     False: bodies pass through each other.
-order : ImpactOrder
+order : ImpactOrder or str
     Which of several approaching contacts is next.
 certify : bool
     Says of each impact on several contacts whether its outcome is unique (`classify_impact`).

@@ -9,7 +9,8 @@
 Units are SI. Arrays of coordinates are `(n_q,)`, of velocities and momenta `(n_v,)`, trajectories
 `(rows, n_q)` and `(rows, n_v)`; the two differ where there are free or ball joints. Everything that
 a user can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError`
-(a RuntimeError) or its kind `JammedError`.
+(a RuntimeError) or its kind `JammedError`. Arguments that are members of enumerations may be given
+by name: `law="shadow_energy"`.
 """
 
 from saltus import scenes
@@ -59,20 +60,20 @@ from saltus._core import (
     TreeSolution,
     TreeSolver,
     __version__,
-    classify_impact,
     compensated,
     discrete_energy,
+    classify_impact,
     energies,
     gap,
     gap_table,
     has_gap,
-    impact_outcomes,
     nodal_energy,
+    impact_outcomes,
     read_urdf,
     resolve_impact,
     resolve_overlap,
-    rotation_from_rpy,
     shadow_energy,
+    rotation_from_rpy,
     shape_name,
     solid_box,
     solid_cylinder,
@@ -138,9 +139,9 @@ __all__ = [
     "TreeSolver",
     "__version__",
     "classify_impact",
-    "cmake_dir",
     "compensated",
     "discrete_energy",
+    "cmake_dir",
     "energies",
     "gap",
     "gap_table",
@@ -148,14 +149,14 @@ __all__ = [
     "impact_outcomes",
     "impact_table",
     "load",
-    "load_urdf",
     "nodal_energy",
+    "load_urdf",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",
     "rotation_from_rpy",
-    "scenes",
     "shadow_energy",
+    "scenes",
     "shape_name",
     "simulate",
     "simulate_batch",

@@ -130,8 +130,8 @@ def test_what_cannot_be_run(options, message):
             '"max_iteration"; bounds of a step are order, certify, max_iter',
         ),
         (
-            {"duration": 1.0, "law": "nodal_energy"},
-            r"^law = 'nodal_energy' is no ImpactLaw; there are sal",
+            {"duration": 1.0, "law": 0},
+            r"^law = 0 is no ImpactLaw; there are saltus.ImpactLaw.nodal_energy, ",
         ),
         ({"duration": 1.0, "model": "m.urdf"}, "model is a str; saltus.load_urdf makes"),
     ],

@@ -90,8 +90,8 @@ def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
         v=dict(chosen.v),
         duration=chosen.duration,
         h=chosen.h,
-        law=saltus.ImpactLaw[chosen.law],
-        order=saltus.ImpactOrder[chosen.order],
+        law=chosen.law,
+        order=chosen.order,
         certify=True,
         collisions=not chosen.no_collisions,
         record_every=chosen.record_every,
@@ -130,12 +130,11 @@ def info(chosen: argparse.Namespace) -> int:
 
 
 def _load(chosen: argparse.Namespace) -> saltus.Model:
-    root = saltus.JointType.floating if chosen.floating else saltus.JointType.fixed
     # Paths, whatever their names begin with: text is for programs.
     return saltus.load_urdf(
         str(Path(chosen.file).absolute()),
-        root_joint=root,
-        meshes=saltus.MeshUse.none if chosen.no_meshes else saltus.MeshUse.hull,
+        root_joint="floating" if chosen.floating else "fixed",
+        meshes="none" if chosen.no_meshes else "hull",
         srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
         contact=chosen.contact,
         floor=chosen.floor,

@@ -40,7 +40,7 @@ def simulate_batch(
     record_contacts: bool = False,
     states: Sequence[State] | None = None,
     threads: int | None = None,
-    on_failure: OnFailure = OnFailure.go_on,
+    on_failure: OnFailure | str = OnFailure.go_on,
     progress: bool | Progress | None = None,
     **bounds: Unpack[StepBounds],
 ) -> BatchTrajectory:
@@ -63,7 +63,7 @@ def simulate_batch(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
         `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
@@ -77,7 +77,7 @@ def simulate_batch(
         The starts in place of `q` and `v`, all at the same time.
     threads : int, optional
         How many; None: as many as the machine runs at once.
-    on_failure : OnFailure
+    on_failure : OnFailure or str
         `OnFailure.go_on`: a run whose step cannot be made, or whose start overlaps, is not
         `complete`, its message is in `failures`, and a RuntimeWarning tells of it.
         `OnFailure.stop`: its error is raised; where several runs fail, that of the first of them.
@@ -106,11 +106,6 @@ def simulate_batch(
         before it are `error.trajectory`.
     """
     check_types(model, bounds, "simulate_batch")
-    if not isinstance(on_failure, OnFailure):
-        raise TypeError(
-            f"on_failure = {on_failure!r} is no OnFailure; there are saltus.OnFailure.go_on, "
-            "saltus.OnFailure.stop"
-        )
     if threads is not None and threads < 1:
         raise ModelError(f"threads = {threads}; it must be at least 1, or None for all there are")
     if states is None:

@@ -26,13 +26,13 @@ from saltus.runs.trajectory import Trajectory
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-Law = ImpactLaw | Callable[[ImpactProblem], ArrayLike]
+Law = ImpactLaw | str | Callable[[ImpactProblem], ArrayLike]
 
 
 class StepBounds(TypedDict, total=False):
     """The order, bounds and tolerances of `StepOptions`, as keywords."""
 
-    order: ImpactOrder
+    order: ImpactOrder | str
     certify: bool
     max_iterations: int
     max_impacts: int
@@ -70,7 +70,7 @@ def simulate(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
         `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
