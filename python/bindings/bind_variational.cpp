@@ -100,9 +100,7 @@ void bind_enums(py::module_& m) {
       .value("shadow_energy", ImpactLaw::shadow_energy)
       .value("compensated", ImpactLaw::compensated)
       .value("custom", ImpactLaw::custom)
-      .export_values()
       .finalize();
-  py::delattr(m, "custom");  // a function is the law, not this name
   py::native_enum<ImpactOrder>(m, "ImpactOrder", "enum.Enum", impact_order_doc)
       .value("fastest", ImpactOrder::fastest)
       .value("index", ImpactOrder::index)

@@ -58,19 +58,15 @@ __all__: list[str] = [
     "TreeSolution",
     "TreeSolver",
     "classify_impact",
-    "compensated",
-    "discrete_energy",
     "energies",
     "gap",
     "gap_table",
     "has_gap",
     "impact_outcomes",
-    "nodal_energy",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",
     "rotation_from_rpy",
-    "shadow_energy",
     "shape_name",
     "simulate",
     "simulate_batch",
@@ -2848,10 +2844,6 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
     Raises
     ------
     ModelError
-compensated: ImpactLaw
-discrete_energy: ImpactLaw
-nodal_energy: ImpactLaw
-shadow_energy: ImpactLaw
         On a `HalfSpace`, which has no end, and where a size is not finite and positive.
     """
 

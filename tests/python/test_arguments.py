@@ -94,7 +94,7 @@ JOINT = {"name": "hinge", "parent": "world", "child": "arm"}
         ),
         (
             lambda: saltus.Impact(
-                0, ["a", 1], [1, 2], contacts=1, law=saltus.nodal_energy, fallback=False
+                0, ["a", 1], [1, 2], contacts=1, law=saltus.ImpactLaw.nodal_energy, fallback=False
             ),
             "Impact() is given pairs = ['a', 1] (list), which is no sequence of str",
         ),
@@ -122,7 +122,7 @@ def test_a_value_of_a_wrong_type(call, message):
         ),
         (lambda: saltus.Sphere(0.1, radius=0.2), "Sphere() is given radius twice"),
         (
-            lambda: saltus.Stepper(cradle(), 0.01, saltus.nodal_energy, True),
+            lambda: saltus.Stepper(cradle(), 0.01, saltus.ImpactLaw.nodal_energy, True),
             "Stepper() is given 4 arguments without a name; it takes model, h, law, the others by",
         ),
         (

@@ -47,7 +47,7 @@ def test_options_of_the_model_are_kept(tmp_path):
         chain_on_a_body(), gravity=(0, 0, -1.62), root_joint=saltus.JointType.floating
     )
     run = saltus.simulate(
-        floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.discrete_energy,
+        floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.ImpactLaw.discrete_energy,
         max_impacts=77, rest=1e-9,
     )  # fmt: skip
     run.save(tmp_path / "run.h5")

@@ -56,7 +56,7 @@ def test_a_cascade_has_its_impulses_in_order(tmp_path):
 def test_areas_are_as_impulses(tmp_path):
     impact = saltus.Impact(
         0.0, ["a ~ b", "b ~ c", "a ~ b"], [4.0, 1.0, 1e-9],
-        contacts=2, law=saltus.nodal_energy, fallback=False,
+        contacts=2, law=saltus.ImpactLaw.nodal_energy, fallback=False,
     )  # fmt: skip
     (axes,) = impacts.plot_cascade(impact, tmp_path / "areas.png").axes
     _, areas = marks(axes)

@@ -23,7 +23,7 @@ def test_the_cradle_of_the_manual():
     assert run.kinetic.shape == run.potential.shape == run.total.shape == run.shadow.shape
     np.testing.assert_allclose(run.total, run.kinetic + run.potential, rtol=1e-15)
     assert run.impacts["t"][0] == pytest.approx(0.504604, abs=1e-4)
-    assert np.all(run.impacts["law"] == saltus.nodal_energy)
+    assert np.all(run.impacts["law"] == saltus.ImpactLaw.nodal_energy)
     assert run.complete
     assert run.energy_error < 1e-4
     assert len(run) == 201

@@ -101,7 +101,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
     add(
         "--law",
         choices=[law.name for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom],
-        default=saltus.nodal_energy.name,
+        default=saltus.ImpactLaw.nodal_energy.name,
         help="which energy impacts conserve; default: %(default)s",
     )
     add(
