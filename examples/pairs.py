@@ -7,7 +7,7 @@ brought to a gap of 0.4 m in one move, to rounding.
 import numpy as np
 
 import saltus
-from saltus.plots_pairs import plot_gaps
+from saltus.plots import plot_gaps
 
 GEM = [(0.5, 0.1, 0.1), (-0.2, 0.45, 0.15), (-0.35, -0.4, 0.1), (0.1, 0.1, 0.6), (0, 0, -0.45)]
 # Of each kind a shape, and how it is turned (roll, pitch, yaw) where it is the upper of two, and

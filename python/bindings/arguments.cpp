@@ -176,15 +176,24 @@ VecX to_vector(const Velocities& x, const Model& model, const char* what) {
   return v;
 }
 
-void refuse_choice(const py::handle& x, const py::handle& kind, const char* what) {
-  const std::string name = kind.attr("__name__").cast<std::string>();
-  std::string members;
-  for (const py::handle member : kind) {
-    members += (members.empty() ? "saltus." : ", saltus.") + name + "." +
-               member.attr("name").cast<std::string>();
+py::object to_member(const py::handle& x, const py::handle& kind, const char* what) {
+  if (py::isinstance(x, kind)) return py::reinterpret_borrow<py::object>(x);
+  const auto name = kind.attr("__name__").cast<std::string>();
+  const std::string wrong = std::string(what) + " = " + show(x) + " is no " + name + "; there are ";
+  const py::dict members(kind.attr("__members__"));
+  const auto names = py::list(members).cast<std::vector<std::string>>();
+  if (!py::isinstance<py::str>(x)) {
+    const std::string start = "saltus." + name + ".";
+    const auto qualified = py::str(", " + start).attr("join")(names).cast<std::string>();
+    throw py::type_error(wrong + start + qualified);
   }
-  throw py::type_error(std::string(what) + " = " + show(x) + " is no " + name + "; there are " +
-                       members);
+  if (members.contains(x)) return members[x];
+  std::string message = wrong + list_names(names);
+  const py::object difflib = py::module_::import("difflib");
+  for (const py::handle near : difflib.attr("get_close_matches")(x, names, 1)) {
+    message += "; did you mean " + show(near) + "?";
+  }
+  throw ModelError(message, what, py::str(x));
 }
 
 int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what) {

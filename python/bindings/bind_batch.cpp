@@ -54,7 +54,7 @@ record_contacts : bool
     Whether to fill `contacts` of each run.
 threads : int
     0: as many as the machine runs at once. The bits do not depend on it.
-on_failure : OnFailure
+on_failure : OnFailure or str
 progress : callable, optional
     Called about ten times a second with the part done in [0, 1]; what it returns is not used.
 
@@ -68,7 +68,7 @@ StepError, JammedError, ModelError
 
 void run(BatchTrajectory& out, const std::vector<State>& starts, double duration,
          const StepOptions& step, int record_every, bool record_contacts, int threads,
-         OnFailure on_failure, const std::optional<Progress>& progress) {
+         const Choice<OnFailure>& on_failure, const std::optional<Progress>& progress) {
   BatchOptions options;
   options.run.h = step.h;
   options.run.law = step.law;
@@ -78,7 +78,7 @@ void run(BatchTrajectory& out, const std::vector<State>& starts, double duration
   options.run.step = step;
   options.run.progress = asking_python(progress);
   options.threads = threads;
-  options.on_failure = on_failure;
+  options.on_failure = to_enum(on_failure, "on_failure");
   const Model model = out.model;
   const py::gil_scoped_release release;
   simulate_batch(model, starts, duration, options, out);

@@ -34,7 +34,7 @@ v : array_like, shape (n,)
     Velocity before.
 restitution : float or array_like, shape (m,)
     e in [0, 1], of all contacts or of each.
-order : ImpactOrder
+order : ImpactOrder or str
 max_impulses : int
 
 Returns
@@ -180,7 +180,7 @@ VecX to_vector(const Restitution& restitution, Eigen::Index contacts) {
 // Strings and pandas-like objects make pybind11's overload error; these are arrays in any case.
 ImpactOutcome resolve(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
                       const VecX& v, const Restitution& restitution,
-                      const Unchecked<ImpactOrder>& order, int max_impulses) {
+                      const Choice<ImpactOrder>& order, int max_impulses) {
   const VecX e = to_vector(restitution, N.rows());
   const CascadeOptions options{to_enum(order, "order"), max_impulses};
   const py::gil_scoped_release release;

@@ -13,13 +13,13 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto self = py::return_value_policy::reference_internal;
 
-ModelBuilder& add_joint(ModelBuilder& builder, const std::string& name, JointType type,
-                        const std::string& parent, const std::string& child, const Pose& X_PJ,
-                        const Vec3& axis, double pitch, const std::optional<Mimic>& mimic,
-                        double lower, double upper, double velocity, double effort, double damping,
-                        double friction) {
-  return builder.add_joint({name, type, parent, child, X_PJ, axis, pitch, mimic, lower, upper,
-                            velocity, effort, damping, friction});
+ModelBuilder& add_joint(ModelBuilder& builder, const std::string& name,
+                        const Choice<JointType>& type, const std::string& parent,
+                        const std::string& child, const Pose& X_PJ, const Vec3& axis, double pitch,
+                        const std::optional<Mimic>& mimic, double lower, double upper,
+                        double velocity, double effort, double damping, double friction) {
+  return builder.add_joint({name, to_enum(type, "type"), parent, child, X_PJ, axis, pitch, mimic,
+                            lower, upper, velocity, effort, damping, friction});
 }
 
 void bind_add_joint(py::class_<ModelBuilder>& c) {
@@ -34,7 +34,7 @@ void bind_add_joint(py::class_<ModelBuilder>& c) {
 
 ModelBuilder& add_body(ModelBuilder& builder, const std::string& name, const Shape& shape,
                        const std::optional<double>& mass, const std::optional<double>& density,
-                       const Pose& X, const Unchecked<JointType>& joint,
+                       const Pose& X, const Choice<JointType>& joint,
                        const std::optional<std::string>& parent,
                        const std::optional<std::string>& joint_name, const Vec3& axis) {
   return builder.add_body({name, shape, mass, density, X, to_enum(joint, "joint"),
@@ -139,7 +139,7 @@ void bind_model_builder(py::module_& m) {
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",
-          [](ModelBuilder& builder, const Unchecked<TreeSolver>& solver) -> ModelBuilder& {
+          [](ModelBuilder& builder, const Choice<TreeSolver>& solver) -> ModelBuilder& {
             return builder.set_solver(to_enum(solver, "solver"));
           },
           self, docs::set_solver, py::arg("solver"))
@@ -163,7 +163,7 @@ void bind_model_builder(py::module_& m) {
            docs::add_group_exclusion, py::arg("group_a"), py::arg("group_b"))
       .def(
           "set_adjacent_links",
-          [](ModelBuilder& builder, const Unchecked<AdjacentLinks>& adjacent) -> ModelBuilder& {
+          [](ModelBuilder& builder, const Choice<AdjacentLinks>& adjacent) -> ModelBuilder& {
             return builder.set_adjacent_links(to_enum(adjacent, "adjacent"));
           },
           self, docs::set_adjacent_links, py::arg("adjacent"))

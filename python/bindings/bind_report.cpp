@@ -109,7 +109,7 @@ void bind_impact(py::module_& m) {
   using I = NamedImpact;
   py::class_<I>(m, "Impact", impact_doc)
       .def(py::init([](double t, std::vector<std::string> pairs, const VecX& lambdas, int contacts,
-                       ImpactLaw law, bool fallback, const std::string& certificate,
+                       const Choice<ImpactLaw>& law, bool fallback, const std::string& certificate,
                        const std::optional<MatX>& tangentials, const std::optional<MatX>& points,
                        const std::optional<MatX>& normals) {
              const Eigen::Index n = lambdas.size();
@@ -121,7 +121,7 @@ void bind_impact(py::module_& m) {
                       to_rows(points, n, nan, "points"),
                       to_rows(normals, n, nan, "normals"),
                       contacts,
-                      law,
+                      to_enum(law, "law"),
                       fallback,
                       certificate};
            }),

@@ -20,7 +20,7 @@ Parameters
 model : Model
 h : float
     [s] step.
-law : ImpactLaw or callable
+law : ImpactLaw, str or callable
     As in `StepOptions`.
 collisions, order, certify, max_iterations, max_impacts, max_impulses, rest, simultaneous
     As in `StepOptions`.
@@ -116,7 +116,7 @@ void bind_stepper(py::module_& m) {
   const StepOptions o;
   py::class_<S>(m, "Stepper", stepper_doc)
       .def(py::init([](const Unchecked<Model>& model, double h, const LawChoice& law,
-                       bool collisions, const Unchecked<ImpactOrder>& order, bool certify,
+                       bool collisions, const Choice<ImpactOrder>& order, bool certify,
                        int max_iterations, int max_impacts, int max_impulses, double rest,
                        double simultaneous) {
              return std::make_unique<S>(

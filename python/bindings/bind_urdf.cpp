@@ -42,11 +42,11 @@ gravity : array_like, shape (3,)
     [m/s^2]
 package_dirs : sequence of str or os.PathLike
     Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
-root_joint : JointType
+root_joint : JointType or str
     How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
-solver : TreeSolver
+solver : TreeSolver or str
     How steps solve for velocities, see `ModelBuilder.set_solver`.
-meshes : MeshUse
+meshes : MeshUse or str
     What becomes of collision meshes, where the file does not say it.
 srdf : str or os.PathLike, optional
     SRDF, a file or text: which links never collide.
@@ -72,8 +72,8 @@ std::string to_path(const PathLike& path) {
 
 ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                        const py::typing::Iterable<PathLike>& package_dirs,
-                       const Unchecked<JointType>& root_joint, const Unchecked<TreeSolver>& solver,
-                       const Unchecked<MeshUse>& meshes, const std::optional<PathLike>& srdf,
+                       const Choice<JointType>& root_joint, const Choice<TreeSolver>& solver,
+                       const Choice<MeshUse>& meshes, const std::optional<PathLike>& srdf,
                        const std::optional<ContactProperties>& contact, bool floor) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");

@@ -32,11 +32,11 @@ Parameters
 ----------
 h : float
     [s] step.
-law : ImpactLaw or callable
+law : ImpactLaw, str or callable
     A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
 collisions : bool
     False: bodies pass through each other.
-order : ImpactOrder
+order : ImpactOrder or str
     Which of several approaching contacts is next.
 certify : bool
     Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
@@ -100,9 +100,7 @@ void bind_enums(py::module_& m) {
       .value("shadow_energy", ImpactLaw::shadow_energy)
       .value("compensated", ImpactLaw::compensated)
       .value("custom", ImpactLaw::custom)
-      .export_values()
       .finalize();
-  py::delattr(m, "custom");  // a function is the law, not this name
   py::native_enum<ImpactOrder>(m, "ImpactOrder", "enum.Enum", impact_order_doc)
       .value("fastest", ImpactOrder::fastest)
       .value("index", ImpactOrder::index)

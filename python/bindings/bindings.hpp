@@ -60,7 +60,7 @@ struct Restitution {
   py::object value;
 };
 
-/// Which law impacts obey: one of ImpactLaw, or a function ImpactProblem -> p+.
+/// Which law impacts obey: one of ImpactLaw or its name, or a function ImpactProblem -> p+.
 struct LawChoice {
   py::object value;
 };
@@ -75,20 +75,24 @@ struct Unchecked {
   py::object value;
 };
 
-/// @throws TypeError, always: `x` is no member of `kind`; there are ... `what` names the argument.
-[[noreturn]] void refuse_choice(const py::handle& x, const py::handle& kind, const char* what);
-
-/// The member that is meant.
+/// What a user gives for an enumeration: a member, or the name of one.
 template <class Enum>
-Enum to_enum(const Unchecked<Enum>& x, const char* what) {
-  const py::object kind = py::type::of(py::cast(Enum{}));
-  if (!py::isinstance(x.value, kind)) refuse_choice(x.value, kind, what);
-  return x.value.template cast<Enum>();
+struct Choice {
+  py::object value;
+};
+
+/// The member of `kind` that `x` is or names; `what` names the argument in messages.
+/// @throws ModelError on a name that no member has, TypeError on what is neither.
+py::object to_member(const py::handle& x, const py::handle& kind, const char* what);
+
+template <class Enum>
+Enum to_enum(const Choice<Enum>& x, const char* what) {
+  return to_member(x.value, py::type::of(py::cast(Enum{})), what).template cast<Enum>();
 }
 
 /// The options of a step, as both StepOptions and Stepper take them.
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
-                              const Unchecked<ImpactOrder>& order, bool certify, int max_iterations,
+                              const Choice<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_impulses, double rest, double simultaneous);
 
 /// How links and shapes are named.
@@ -156,7 +160,18 @@ template <>
 struct type_caster<saltus::bindings::LawChoice> {
   PYBIND11_TYPE_CASTER(
       saltus::bindings::LawChoice,
-      const_name("ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike]"));
+      const_name("ImpactLaw | str | "
+                 "collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike]"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+template <class Enum>
+struct type_caster<saltus::bindings::Choice<Enum>> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::Choice<Enum>,
+                       make_caster<Enum>::name + const_name(" | str"));
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

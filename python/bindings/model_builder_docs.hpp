@@ -43,7 +43,7 @@ the shape of each tree; `Model.solvers` tells what became of it.
 
 Parameters
 ----------
-solver : TreeSolver
+solver : TreeSolver or str
 )";
 
 constexpr auto add_link = R"(Adds a link.
@@ -65,7 +65,7 @@ constexpr auto add_joint = R"(Adds a joint between two links.
 Parameters
 ----------
 name : str
-type : JointType
+type : JointType or str
 parent, child : str
     Links; they may be added later.
 X_PJ : Pose
@@ -160,7 +160,7 @@ What is welded together never does.
 
 Parameters
 ----------
-adjacent : AdjacentLinks
+adjacent : AdjacentLinks or str
 )";
 
 constexpr auto adjacent_links =

@@ -60,7 +60,7 @@ density : float, optional
     [kg/m^3]
 X : Pose
     Where the body is in the parent link's frame at displacement 0.
-joint : JointType
+joint : JointType or str
     Floating: it flies. Fixed, and below the root: it never moves.
 parent : str, optional
     Link below which it hangs; the root link otherwise. It may be added later.

@@ -31,19 +31,16 @@ ImpactFunction asking_python_law(const py::object& law) {
 }  // namespace
 
 void set_law(const LawChoice& law, StepOptions& options) {
-  const py::object kind = py::type::of(py::cast(ImpactLaw::nodal_energy));
-  if (py::isinstance(law.value, kind)) {
-    options.law = law.value.cast<ImpactLaw>();
-  } else if (PyCallable_Check(law.value.ptr()) != 0) {
+  if (PyCallable_Check(law.value.ptr()) != 0) {
     options.law = ImpactLaw::custom;
     options.custom = asking_python_law(law.value);
   } else {
-    refuse_choice(law.value, kind, "law");
+    options.law = to_enum(Choice<ImpactLaw>{law.value}, "law");
   }
 }
 
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
-                              const Unchecked<ImpactOrder>& order, bool certify, int max_iterations,
+                              const Choice<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_impulses, double rest, double simultaneous) {
   StepOptions options;
   options.h = h;

@@ -9,7 +9,8 @@
 Units are SI. Arrays of coordinates are `(n_q,)`, of velocities and momenta `(n_v,)`, trajectories
 `(rows, n_q)` and `(rows, n_v)`; the two differ where there are free or ball joints. Everything that
 a user can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError`
-(a RuntimeError) or its kind `JammedError`.
+(a RuntimeError) or its kind `JammedError`. Arguments that are members of enumerations may be given
+by name: `law="shadow_energy"`.
 """
 
 from saltus import scenes
@@ -60,19 +61,15 @@ from saltus._core import (
     TreeSolver,
     __version__,
     classify_impact,
-    compensated,
-    discrete_energy,
     energies,
     gap,
     gap_table,
     has_gap,
     impact_outcomes,
-    nodal_energy,
     read_urdf,
     resolve_impact,
     resolve_overlap,
     rotation_from_rpy,
-    shadow_energy,
     shape_name,
     solid_box,
     solid_cylinder,
@@ -80,13 +77,12 @@ from saltus._core import (
     solid_sphere,
     volume,
 )
-from saltus.batch import simulate_batch
-from saltus.batch_trajectory import BatchTrajectory
-from saltus.files import load
-from saltus.impacts import impact_table
 from saltus.paths import cmake_dir, urdf_dir
-from saltus.rollout import simulate
-from saltus.trajectory import Trajectory
+from saltus.records.impacts import impact_table
+from saltus.runs.batch import simulate_batch
+from saltus.runs.batch_trajectory import BatchTrajectory
+from saltus.runs.simulate import simulate
+from saltus.runs.trajectory import Trajectory, load
 from saltus.urdf import ModelWarning, load_urdf
 
 __all__ = [
@@ -140,8 +136,6 @@ __all__ = [
     "__version__",
     "classify_impact",
     "cmake_dir",
-    "compensated",
-    "discrete_energy",
     "energies",
     "gap",
     "gap_table",
@@ -150,13 +144,11 @@ __all__ = [
     "impact_table",
     "load",
     "load_urdf",
-    "nodal_energy",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",
     "rotation_from_rpy",
     "scenes",
-    "shadow_energy",
     "shape_name",
     "simulate",
     "simulate_batch",

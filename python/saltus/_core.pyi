@@ -58,19 +58,15 @@ __all__: list[str] = [
     "TreeSolution",
     "TreeSolver",
     "classify_impact",
-    "compensated",
-    "discrete_energy",
     "energies",
     "gap",
     "gap_table",
     "has_gap",
     "impact_outcomes",
-    "nodal_energy",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",
     "rotation_from_rpy",
-    "shadow_energy",
     "shape_name",
     "simulate",
     "simulate_batch",
@@ -1328,7 +1324,7 @@ class ModelBuilder:
         mass: typing.SupportsFloat | typing.SupportsIndex | None = None,
         density: typing.SupportsFloat | typing.SupportsIndex | None = None,
         X: Pose = ...,
-        joint: JointType = ...,
+        joint: JointType | str = ...,
         parent: str | None = None,
         joint_name: str | None = None,
         axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (1, 0, 0),
@@ -1349,7 +1345,7 @@ class ModelBuilder:
             [kg/m^3]
         X : Pose
             Where the body is in the parent link's frame at displacement 0.
-        joint : JointType
+        joint : JointType or str
             Floating: it flies. Fixed, and below the root: it never moves.
         parent : str, optional
             Link below which it hangs; the root link otherwise. It may be added later.
@@ -1448,7 +1444,7 @@ class ModelBuilder:
     def add_joint(
         self,
         name: str,
-        type: JointType,
+        type: JointType | str,
         *,
         parent: str,
         child: str,
@@ -1469,7 +1465,7 @@ class ModelBuilder:
         Parameters
         ----------
         name : str
-        type : JointType
+        type : JointType or str
         parent, child : str
             Links; they may be added later.
         X_PJ : Pose
@@ -1552,7 +1548,7 @@ class ModelBuilder:
         """
         The checks of `build` alone; raises ModelError.
         """
-    def set_adjacent_links(self, adjacent: AdjacentLinks) -> ModelBuilder:
+    def set_adjacent_links(self, adjacent: AdjacentLinks | str) -> ModelBuilder:
         """
         Says whether links on both sides of one joint may collide.
 
@@ -1560,7 +1556,7 @@ class ModelBuilder:
 
         Parameters
         ----------
-        adjacent : AdjacentLinks
+        adjacent : AdjacentLinks or str
         """
     def set_contact(
         self,
@@ -1630,7 +1626,7 @@ class ModelBuilder:
         material : str
             Any name; `set_contact` says what happens between two.
         """
-    def set_solver(self, solver: TreeSolver) -> ModelBuilder:
+    def set_solver(self, solver: TreeSolver | str) -> ModelBuilder:
         """
         Says how steps solve for velocities, on all trees.
 
@@ -1639,7 +1635,7 @@ class ModelBuilder:
 
         Parameters
         ----------
-        solver : TreeSolver
+        solver : TreeSolver or str
         """
     @property
     def warnings(self) -> list[str]: ...
@@ -1735,11 +1731,11 @@ class StepOptions:
     ----------
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
     collisions : bool
         False: bodies pass through each other.
-    order : ImpactOrder
+    order : ImpactOrder or str
         Which of several approaching contacts is next.
     certify : bool
         Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
@@ -1758,10 +1754,12 @@ class StepOptions:
     def __init__(
         self,
         h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
-        law: ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
+        law: ImpactLaw
+        | str
+        | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
         collisions: bool = True,
         *,
-        order: ImpactOrder = ...,
+        order: ImpactOrder | str = ...,
         certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
@@ -1951,7 +1949,7 @@ class Impact:
         lambdas: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         *,
         contacts: typing.SupportsInt | typing.SupportsIndex,
-        law: ImpactLaw,
+        law: ImpactLaw | str,
         fallback: bool,
         certificate: str = "",
         tangentials: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
@@ -2070,7 +2068,7 @@ class Stepper:
     model : Model
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         As in `StepOptions`.
     collisions, order, certify, max_iterations, max_impacts, max_impulses, rest, simultaneous
         As in `StepOptions`.
@@ -2084,10 +2082,12 @@ class Stepper:
         self,
         model: Model,
         h: typing.SupportsFloat | typing.SupportsIndex = 0.01,
-        law: ImpactLaw | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
+        law: ImpactLaw
+        | str
+        | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike] = ...,
         *,
         collisions: bool = True,
-        order: ImpactOrder = ...,
+        order: ImpactOrder | str = ...,
         certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
@@ -2484,9 +2484,9 @@ def read_urdf(
     *,
     gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, -9.81),
     package_dirs: collections.abc.Iterable[str | os.PathLike[str]] = (),
-    root_joint: JointType = ...,
-    solver: TreeSolver = ...,
-    meshes: MeshUse = ...,
+    root_joint: JointType | str = ...,
+    solver: TreeSolver | str = ...,
+    meshes: MeshUse | str = ...,
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
@@ -2502,11 +2502,11 @@ def read_urdf(
         [m/s^2]
     package_dirs : sequence of str or os.PathLike
         Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
-    root_joint : JointType
+    root_joint : JointType or str
         How the root link hangs on the world: fixed, or by a joint named "root" below a link "world".
-    solver : TreeSolver
+    solver : TreeSolver or str
         How steps solve for velocities, see `ModelBuilder.set_solver`.
-    meshes : MeshUse
+    meshes : MeshUse or str
         What becomes of collision meshes, where the file does not say it.
     srdf : str or os.PathLike, optional
         SRDF, a file or text: which links never collide.
@@ -2532,7 +2532,7 @@ def resolve_impact(
     v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
     *,
     restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
-    order: ImpactOrder = ...,
+    order: ImpactOrder | str = ...,
     max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
 ) -> ImpactOutcome:
     """
@@ -2557,7 +2557,7 @@ def resolve_impact(
         Velocity before.
     restitution : float or array_like, shape (m,)
         e in [0, 1], of all contacts or of each.
-    order : ImpactOrder
+    order : ImpactOrder or str
     max_impulses : int
 
     Returns
@@ -2669,7 +2669,7 @@ def simulate_batch(
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
     record_contacts: bool = False,
     threads: typing.SupportsInt | typing.SupportsIndex = 0,
-    on_failure: OnFailure = ...,
+    on_failure: OnFailure | str = ...,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
 ) -> None:
     """
@@ -2690,7 +2690,7 @@ def simulate_batch(
         Whether to fill `contacts` of each run.
     threads : int
         0: as many as the machine runs at once. The bits do not depend on it.
-    on_failure : OnFailure
+    on_failure : OnFailure or str
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
 
@@ -2848,7 +2848,3 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
     """
 
 __version__: str = "0.1.0"
-compensated: ImpactLaw
-discrete_energy: ImpactLaw
-nodal_energy: ImpactLaw
-shadow_energy: ImpactLaw

@@ -6,7 +6,6 @@ is expected is read from the signature that pybind11 gives.
 
 from __future__ import annotations
 
-import enum
 import operator
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -149,12 +148,9 @@ def _misfit(name: str, value: object, annotation: str) -> str:
     start = f"{name} = {_show(value)} ({type(value).__name__})"
     words = dict.fromkeys(word for kind in kinds if (word := _in_words(kind)))
     text = f"{start}, which is no {' or '.join(words)}"
-    if len(kinds) == 1:
-        member = _class(kinds[0])
-        if issubclass(member, enum.Enum):
-            choices = ", ".join(f"saltus.{member.__name__}.{each.name}" for each in member)
-            return f"{text}; there are {choices}"
-        if kinds[0].startswith("typing.Annotated") and (array := _array(value)) is not None:
+    if len(kinds) == 1 and kinds[0].startswith("typing.Annotated"):
+        array = _array(value)
+        if array is not None:
             return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
     return text
 

@@ -50,9 +50,9 @@ def load_urdf(
     *,
     gravity: ArrayLike = (0.0, 0.0, -9.81),
     package_dirs: Sequence[str | os.PathLike[str]] = (),
-    root_joint: JointType = JointType.fixed,
-    solver: TreeSolver = TreeSolver.automatic,
-    meshes: MeshUse = MeshUse.hull,
+    root_joint: JointType | str = JointType.fixed,
+    solver: TreeSolver | str = TreeSolver.automatic,
+    meshes: MeshUse | str = MeshUse.hull,
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
@@ -67,13 +67,13 @@ def load_urdf(
         [m/s^2]
     package_dirs : sequence of str or os.PathLike
         Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
-    root_joint : JointType
+    root_joint : JointType or str
         How the root link hangs on the world: fixed, or by a joint named "root" below a link
         named "world".
-    solver : TreeSolver
+    solver : TreeSolver or str
         How steps solve for velocities: a matter of speed, answers differ by rounding. Rarely
         worth giving; `TreeSolver` says when, `Model.solvers` what became of it.
-    meshes : MeshUse
+    meshes : MeshUse or str
         What becomes of collision meshes: their convex hulls, or nothing. The file's own word on a
         link, `<mesh link="..." use="..."/>`, comes first.
     srdf : str or os.PathLike, optional

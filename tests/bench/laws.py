@@ -7,7 +7,7 @@ import numpy as np
 
 import saltus
 
-LAWS = (saltus.discrete_energy, saltus.nodal_energy, saltus.shadow_energy, saltus.compensated)
+LAWS = ("discrete_energy", "nodal_energy", "shadow_energy", "compensated")
 ARM = saltus.Pose((0, 0, -1))
 
 
@@ -107,7 +107,7 @@ def main():
             cells = " | ".join(f"{H:.1e} ({shadow:.1e})" for H, shadow in errors)
             defect = symplectic_defect(model, step_with_impact(model, start, 0.04), law)
             cost = microseconds(model, step_with_impact(model, start, 0.01), law)
-            print(f"| {law.name} | {defect:.0e} | {cells} | {cost:.0f} µs |")
+            print(f"| {law} | {defect:.0e} | {cells} | {cost:.0f} µs |")
 
 
 if __name__ == "__main__":

@@ -212,8 +212,8 @@ def test_what_cannot_be_run(options, message):
     ("options", "message"),
     [
         ({"max_iteration": 1}, r'simulate_batch\(\) has no argument "max_iteration"; bounds'),
-        ({"law": "nodal_energy"}, "there are saltus.ImpactLaw.nodal_energy"),
-        ({"on_failure": "raise"}, "there are saltus.OnFailure.go_on, saltus.OnFailure.stop"),
+        ({"law": 0}, "there are saltus.ImpactLaw.nodal_energy"),
+        ({"on_failure": True}, "there are saltus.OnFailure.go_on, saltus.OnFailure.stop"),
         ({"threads": 1.5}, "threads"),
         ({"q": None, "states": [cradle().state(), 1]}, r"states\[1\] is a int; model"),
     ],

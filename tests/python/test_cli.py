@@ -80,7 +80,7 @@ def test_other_options_of_simulate(tmp_path):
     assert done.returncode == 0, done.stderr
     run = saltus.load(out)
     assert len(run) == 21
-    assert run.options.law is saltus.discrete_energy
+    assert run.options.law is saltus.ImpactLaw.discrete_energy
     assert run.options.collisions is False
     assert (run.model.n_q, run.model.n_v) == (10, 9)
     assert run.column("joint_2")[0] == -0.3

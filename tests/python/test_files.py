@@ -8,7 +8,8 @@ import pytest
 from helpers import bouncing_ball, chain_on_a_body, cradle_run, puck
 
 import saltus
-from saltus.files import ARRAYS, NUMBERS, OPTIONS
+from saltus.records.files import OPTIONS
+from saltus.records.tables import ARRAYS, NUMBERS
 
 
 def assert_same(a: saltus.Trajectory, b: saltus.Trajectory) -> None:
@@ -46,7 +47,7 @@ def test_options_of_the_model_are_kept(tmp_path):
         chain_on_a_body(), gravity=(0, 0, -1.62), root_joint=saltus.JointType.floating
     )
     run = saltus.simulate(
-        floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.discrete_energy,
+        floating, v={"joint_0": 1.0}, duration=0.1, h=0.005, law=saltus.ImpactLaw.discrete_energy,
         max_impacts=77, rest=1e-9,
     )  # fmt: skip
     run.save(tmp_path / "run.h5")
@@ -198,7 +199,7 @@ def test_a_failed_save_leaves_the_old_file(tmp_path, monkeypatch):
     cradle_run().save(path)
     before = path.read_bytes()
     broken = saltus.simulate(cradle_run().model, duration=0.1)
-    monkeypatch.setattr("saltus.files.ARRAYS", ("t", "nonsense"))
+    monkeypatch.setattr("saltus.records.files.ARRAYS", ("t", "nonsense"))
     with pytest.raises(AttributeError):
         broken.save(path)
     assert path.read_bytes() == before

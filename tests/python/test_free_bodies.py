@@ -196,7 +196,7 @@ def test_models_and_states_go_to_other_processes():
 
 def test_law_compensated_is_refused_in_words():
     with pytest.raises(saltus.ModelError, match='not for floating and spherical joints, as "free"'):
-        saltus.simulate(brick(), duration=0.1, law=saltus.compensated)
+        saltus.simulate(brick(), duration=0.1, law=saltus.ImpactLaw.compensated)
 
 
 def dominoes() -> saltus.Model:

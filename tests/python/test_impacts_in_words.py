@@ -7,12 +7,12 @@ import pytest
 from helpers import bouncing_ball, cradle, cradle_run
 
 import saltus
-from saltus import impacts
+from saltus.records import impacts
 
 
 def made(pairs: list[str], lambdas: list[float], **rest: object) -> saltus.Impact:
     """Return an impact on as many contacts as it has pairs."""
-    known = {"contacts": len(set(pairs)), "law": saltus.nodal_energy, "fallback": False}
+    known = {"contacts": len(set(pairs)), "law": saltus.ImpactLaw.nodal_energy, "fallback": False}
     return saltus.Impact(0.25, pairs, lambdas, **(known | rest))
 
 
@@ -100,7 +100,12 @@ def test_a_fallback_is_said():
 @pytest.mark.parametrize("nothing", [None, ""])
 def test_what_is_certain_comes_last(nothing, monkeypatch):
     impact = Certified(
-        0.25, ["a ~ b", "b ~ c"], [1.0, 1.0], contacts=2, law=saltus.nodal_energy, fallback=False
+        0.25,
+        ["a ~ b", "b ~ c"],
+        [1.0, 1.0],
+        contacts=2,
+        law=saltus.ImpactLaw.nodal_energy,
+        fallback=False,
     )
     counts = "2 impulses on 2 contacts"
     assert impacts.count_line(impact) == f"{counts}; unique, A2, at most 3 impulses"

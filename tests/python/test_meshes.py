@@ -102,8 +102,9 @@ def test_meshes_are_hulls(robot):
 def test_meshes_may_be_left_out(robot):
     assert saltus.load_urdf(robot, meshes=MeshUse.none).shapes == []
     assert saltus.read_urdf(robot, meshes=MeshUse.none).warnings == []
+    assert saltus.read_urdf(robot, meshes="none").warnings == []
     with pytest.raises(TypeError, match="MeshUse"):
-        saltus.load_urdf(robot, meshes="none")
+        saltus.load_urdf(robot, meshes=False)
 
 
 def test_broken_meshes_are_errors(robot):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import re
 import shutil
@@ -28,6 +29,13 @@ def test_version_is_that_of_the_cmake_project():
     code = (ROOT / "CMakeLists.txt").read_text()
     version = re.search(r"project\(saltus VERSION ([0-9.]+)", code).group(1)
     assert saltus.__version__ == version == importlib.metadata.version("saltus")
+
+
+@pytest.mark.parametrize("name", ["cradle", "impacts", "pairs"])
+def test_old_paths_of_plots_still_work(name):
+    old, new = (importlib.import_module(f"saltus.plots{mark}{name}") for mark in "_.")
+    for each in old.__all__:
+        assert getattr(old, each) is getattr(new, each)
 
 
 def test_cpp_project_finds_the_pip_package(tmp_path):

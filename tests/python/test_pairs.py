@@ -119,7 +119,7 @@ def test_radii_add_in_the_curvature():
 
 def test_pictures_of_pairs(tmp_path):
     pytest.importorskip("matplotlib")
-    from saltus import plots_pairs
+    from saltus.plots import pairs as plots_pairs
 
     pairs = [
         (SHAPES[a], Pose((0, 0, 2)), SHAPES[b], Pose((0.1, 0, 0)))
@@ -138,7 +138,7 @@ def test_pictures_of_pairs(tmp_path):
 
 @pytest.mark.parametrize("kind", [kind for kind in SHAPES if kind != "half_space"])
 def test_facets_close_and_look_outwards(kind):
-    from saltus import plots_pairs
+    from saltus.plots import pairs as plots_pairs
 
     facets = plots_pairs.FACETS[type(SHAPES[kind])](SHAPES[kind])
     normals = plots_pairs._normals(facets)

@@ -119,9 +119,16 @@ def test_copies_are_the_model():
         assert repr(copied) == repr(model)
 
 
+def test_runs_from_before_trajectory_moved_are_read():
+    own = run(cradle(2), 0.3)
+    old = pickle.dumps(own, protocol=2).replace(b"csaltus.runs.trajectory", b"csaltus.trajectory")
+    assert b"csaltus.trajectory\nTrajectory" in old
+    assert pickle.loads(old).q.tobytes() == own.q.tobytes()
+
+
 def test_options_but_no_functions():
     options = saltus.StepOptions(
-        0.002, saltus.compensated, False, order=saltus.ImpactOrder.symmetric, certify=True,
+        0.002, "compensated", False, order=saltus.ImpactOrder.symmetric, certify=True,
         max_iterations=9, max_impacts=8, max_impulses=7, rest=1e-9, simultaneous=1e-8,
     )  # fmt: skip
     names = [name for name in vars(saltus.StepOptions) if not name.startswith("_")]

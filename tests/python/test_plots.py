@@ -10,7 +10,7 @@ import pytest
 from helpers import bouncing_ball, chain, cradle, cradle_run
 
 import saltus
-from saltus import plots, plots_cradle
+from saltus import plots
 
 matplotlib_image = pytest.importorskip("matplotlib.image")
 
@@ -39,7 +39,7 @@ def test_cradle_is_drawn_as_in_the_paper(tmp_path):
 
 
 def test_times_of_sketches_can_be_chosen(tmp_path):
-    figure = plots_cradle.plot_cradle(cradle_run(), tmp_path / "two.svg", times=[0.0, 1.5])
+    figure = plots.plot_cradle(cradle_run(), tmp_path / "two.svg", times=[0.0, 1.5])
     assert len(figure.axes) == 3
     assert (tmp_path / "two.svg").read_text().startswith("<?xml")
     with pytest.raises(saltus.ModelError, match="the run goes from 0 to 2 s"):
@@ -61,7 +61,7 @@ def test_a_run_of_one_row_and_one_without_impacts(tmp_path):
 
 def test_other_models_get_coordinates_and_energies(tmp_path):
     ball = saltus.simulate(bouncing_ball().build(), duration=2.0)
-    assert not plots_cradle.is_cradle(ball)
+    assert not plots.is_cradle(ball)
     figure = ball.plot(tmp_path / "ball.png")
     pixels(tmp_path / "ball.png")
     assert [axes.get_ylabel() for axes in figure.axes] == [
@@ -70,11 +70,11 @@ def test_other_models_get_coordinates_and_energies(tmp_path):
     swing = saltus.simulate(chain(12), q=[0.1] * 12, duration=0.5)
     assert swing.plot(tmp_path / "chain.png").axes[0].get_legend() is None
     with pytest.raises(saltus.ModelError, match="no cradle"):
-        plots_cradle.plot_cradle(ball)
+        plots.plot_cradle(ball)
 
 
 def test_many_impacts_are_a_rug(tmp_path, monkeypatch):
-    monkeypatch.setattr(plots, "MOST_MARKS", 2)
+    monkeypatch.setattr("saltus.plots.run.MOST_MARKS", 2)
     run = cradle_run()
     plots.plot_run(run, tmp_path / "rug.png")
     pixels(tmp_path / "rug.png")

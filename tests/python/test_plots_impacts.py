@@ -8,7 +8,7 @@ from helpers import bouncing_ball, cradle, cradle_run
 from test_plots import pixels
 
 import saltus
-from saltus import plots_impacts
+from saltus.plots import impacts
 
 pytest.importorskip("matplotlib")
 
@@ -56,12 +56,12 @@ def test_a_cascade_has_its_impulses_in_order(tmp_path):
 def test_areas_are_as_impulses(tmp_path):
     impact = saltus.Impact(
         0.0, ["a ~ b", "b ~ c", "a ~ b"], [4.0, 1.0, 1e-9],
-        contacts=2, law=saltus.nodal_energy, fallback=False,
+        contacts=2, law=saltus.ImpactLaw.nodal_energy, fallback=False,
     )  # fmt: skip
-    (axes,) = plots_impacts.plot_cascade(impact, tmp_path / "areas.png").axes
+    (axes,) = impacts.plot_cascade(impact, tmp_path / "areas.png").axes
     _, areas = marks(axes)
     assert areas[0] == pytest.approx(4 * areas[1])
-    assert areas[2] == plots_impacts.SMALLEST**2  # what is weak is still seen
+    assert areas[2] == impacts.SMALLEST**2  # what is weak is still seen
 
 
 def test_one_impact_is_drawn_as_a_cascade(tmp_path):
@@ -87,11 +87,11 @@ def test_many_rows_are_named_in_part(tmp_path):
     (axes,) = run.plot_impacts(tmp_path / "long.png").axes
     names = rows_of(axes)
     assert names[0] == "ball_0 ~ ball_1"
-    assert 10 < len(names) <= plots_impacts.MOST_LABELS
+    assert 10 < len(names) <= impacts.MOST_LABELS
     assert len(marks(axes)[0]) == 99
 
 
 def test_rows_must_hold_all_pairs(tmp_path):
     with pytest.raises(saltus.ModelError, match='no row for pair "ball_1 ~ ball_2"; rows are a'):
-        plots_impacts.plot_cascade(cradle_run().impact(0), tmp_path / "no.png",
+        impacts.plot_cascade(cradle_run().impact(0), tmp_path / "no.png",
                                    pairs=["a", "ball_0 ~ ball_1"])  # fmt: skip

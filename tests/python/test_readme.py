@@ -11,7 +11,7 @@ import pytest
 from tests.conftest import ROOT
 
 import saltus
-from saltus.__main__ import main
+from saltus.cli.main import main
 
 README = ROOT / "README.md"
 PAGES = [README, *sorted((ROOT / "python" / "docs").glob("*.md"))]

@@ -23,7 +23,7 @@ def test_the_cradle_of_the_manual():
     assert run.kinetic.shape == run.potential.shape == run.total.shape == run.shadow.shape
     np.testing.assert_allclose(run.total, run.kinetic + run.potential, rtol=1e-15)
     assert run.impacts["t"][0] == pytest.approx(0.504604, abs=1e-4)
-    assert np.all(run.impacts["law"] == saltus.nodal_energy)
+    assert np.all(run.impacts["law"] == saltus.ImpactLaw.nodal_energy)
     assert run.complete
     assert run.energy_error < 1e-4
     assert len(run) == 201
@@ -130,8 +130,8 @@ def test_what_cannot_be_run(options, message):
             '"max_iteration"; bounds of a step are order, certify, max_iter',
         ),
         (
-            {"duration": 1.0, "law": "nodal_energy"},
-            r"^law = 'nodal_energy' is no ImpactLaw; there are sal",
+            {"duration": 1.0, "law": 0},
+            r"^law = 0 is no ImpactLaw; there are saltus.ImpactLaw.nodal_energy, ",
         ),
         ({"duration": 1.0, "model": "m.urdf"}, "model is a str; saltus.load_urdf makes"),
     ],

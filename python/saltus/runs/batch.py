@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import numpy as np
-from numpy.typing import ArrayLike
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from saltus import _core
 from saltus._core import (
@@ -20,14 +17,14 @@ from saltus._core import (
     StepError,
     StepOptions,
 )
-from saltus.batch_trajectory import BatchTrajectory
-from saltus.rollout import Law, Progress, StepBounds, check_types, keep_rows, progress_bar
-from saltus.trajectory import Array, Trajectory
+from saltus.runs.batch_trajectory import BatchTrajectory
+from saltus.runs.progress import Progress, progress_bar
+from saltus.runs.simulate import Law, StepBounds, check_types, keep_rows
+from saltus.runs.starts import Starts, to_states
+from saltus.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-Starts = Mapping[str, ArrayLike] | ArrayLike | None
 
 
 def simulate_batch(
@@ -43,7 +40,7 @@ def simulate_batch(
     record_contacts: bool = False,
     states: Sequence[State] | None = None,
     threads: int | None = None,
-    on_failure: OnFailure = OnFailure.go_on,
+    on_failure: OnFailure | str = OnFailure.go_on,
     progress: bool | Progress | None = None,
     **bounds: Unpack[StepBounds],
 ) -> BatchTrajectory:
@@ -66,7 +63,7 @@ def simulate_batch(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
         `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
@@ -80,7 +77,7 @@ def simulate_batch(
         The starts in place of `q` and `v`, all at the same time.
     threads : int, optional
         How many; None: as many as the machine runs at once.
-    on_failure : OnFailure
+    on_failure : OnFailure or str
         `OnFailure.go_on`: a run whose step cannot be made, or whose start overlaps, is not
         `complete`, its message is in `failures`, and a RuntimeWarning tells of it.
         `OnFailure.stop`: its error is raised; where several runs fail, that of the first of them.
@@ -109,15 +106,10 @@ def simulate_batch(
         before it are `error.trajectory`.
     """
     check_types(model, bounds, "simulate_batch")
-    if not isinstance(on_failure, OnFailure):
-        raise TypeError(
-            f"on_failure = {on_failure!r} is no OnFailure; there are saltus.OnFailure.go_on, "
-            "saltus.OnFailure.stop"
-        )
     if threads is not None and threads < 1:
         raise ModelError(f"threads = {threads}; it must be at least 1, or None for all there are")
     if states is None:
-        states = _states(model, q, v)
+        states = to_states(model, q, v)
     elif q is not None or v is not None:
         raise ModelError("give either states or q and v, not both")
     for i, state in enumerate(states):
@@ -145,104 +137,6 @@ def simulate_batch(
     batch = BatchTrajectory.from_core(core)
     _tell(batch)
     return batch
-
-
-class _Space(NamedTuple):
-    """What is asked of q or v: names of the columns, and values that are not given."""
-
-    what: str
-    kind: str
-    names: list[str]
-    joints: dict[str, list[int]]  # of several columns
-    default: Array
-
-
-def _spaces(model: Model) -> tuple[_Space, _Space]:
-    def several(columns: dict[str, list[int]]) -> dict[str, list[int]]:
-        return {name: own for name, own in columns.items() if len(own) > 1}
-
-    q = several({joint.name: joint.coordinates for joint in model.joints})
-    v = several({joint.name: joint.velocities for joint in model.joints})
-    return (
-        _Space("q", "coordinate", model.coordinate_names, q, model.neutral()),
-        _Space("v", "velocity", model.velocity_names, v, np.zeros(model.n_v)),
-    )
-
-
-def _states(model: Model, q: Starts, v: Starts) -> list[State]:
-    spaces = _spaces(model)
-    arrays = [_to_array(space, x) for space, x in zip(spaces, (q, v), strict=True)]
-    rows = {s.what: len(x) for s, x in zip(spaces, arrays, strict=True) if x.ndim == 2}
-    if not rows:
-        raise ModelError(
-            "q and v hold a single start; a batch takes a row a run, shape (runs, n); a single "
-            "start is for simulate"
-        )
-    runs = max(rows.values())
-    if min(rows.values()) != runs:
-        raise ModelError(f"q has {rows['q']} rows and v has {rows['v']}; a row is a run")
-    return _core.states(model, *(np.broadcast_to(x, (runs, x.shape[-1])) for x in arrays))
-
-
-def _to_array(space: _Space, x: Starts) -> Array:
-    """Return the array (B, n) that is meant, (n,) where it is the same for all runs."""
-    n = len(space.names)
-    if x is None:
-        return space.default
-    if isinstance(x, Mapping):
-        return _from_mapping(space, x)
-    array = _numbers(space.what, x)
-    if array.ndim not in (1, 2) or array.shape[-1] != n:
-        raise ModelError(
-            f"{space.what} has shape {array.shape}; it must have shape (runs, {n}), a column for "
-            f"each of {', '.join(space.names)}"
-        )
-    return array
-
-
-def _columns(space: _Space, name: str) -> list[int]:
-    if name in space.names:
-        return [space.names.index(name)]
-    if name in space.joints:
-        return space.joints[name]
-    known = ", ".join([*space.names, *space.joints])
-    raise ModelError(f'no {space.kind} "{name}"; there are {known}')
-
-
-def _from_mapping(space: _Space, x: Mapping[str, ArrayLike]) -> Array:
-    """Fill columns by names: (runs,) or () of one number, (runs, k) or (k,) of a joint of k."""
-    own = {name: _columns(space, name) for name in x}
-    values = {}
-    for name, columns in own.items():
-        value = _numbers(f'{space.what}["{name}"]', _plain(x[name]))
-        if len(columns) == 1 and name in space.names:
-            value = value[..., np.newaxis]
-        if value.ndim not in (1, 2) or value.shape[-1] != len(columns):
-            taken = "(runs,) or ()" if len(columns) == 1 else f"(runs, {len(columns)}) or less"
-            shown = np.shape(_plain(x[name]))
-            raise ModelError(f'{space.what}["{name}"] has shape {shown}; it must be {taken}')
-        values[name] = value
-    lengths = {len(value) for value in values.values() if value.ndim == 2}
-    if len(lengths) > 1:
-        listed = ", ".join(f'"{name}": {np.shape(_plain(x[name]))}' for name in x)
-        raise ModelError(f"{space.what} has arrays of shapes {{{listed}}}; all must have the runs")
-    out = np.empty((*lengths, len(space.names)))
-    out[...] = space.default
-    for name, value in values.items():
-        out[..., own[name]] = value
-    return out
-
-
-def _plain(x: Any) -> Any:
-    """Return the quaternions x y z w of a SciPy Rotation; other values as they are."""
-    return x.as_quat() if hasattr(x, "as_quat") else x
-
-
-def _numbers(what: str, x: ArrayLike) -> Array:
-    try:
-        return np.asarray(x, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ModelError(f"{what} is no array of numbers: {error}") from None
 
 
 def _tell(batch: BatchTrajectory) -> None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypedDict
 
 from numpy.typing import ArrayLike
-from tqdm import tqdm
 
 from saltus import _core
 from saltus._core import (
@@ -21,23 +20,19 @@ from saltus._core import (
     StepError,
     StepOptions,
 )
-from saltus.trajectory import Trajectory
+from saltus.runs.progress import Progress, progress_bar
+from saltus.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-Progress = Callable[[float], object]
-Law = ImpactLaw | Callable[[ImpactProblem], ArrayLike]
-
-# Runs that end sooner need no bar.
-BAR_DELAY = 2.0  # [s]
-BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} {unit} [{elapsed}<{remaining}]"
+Law = ImpactLaw | str | Callable[[ImpactProblem], ArrayLike]
 
 
 class StepBounds(TypedDict, total=False):
     """The order, bounds and tolerances of `StepOptions`, as keywords."""
 
-    order: ImpactOrder
+    order: ImpactOrder | str
     certify: bool
     max_iterations: int
     max_impacts: int
@@ -75,7 +70,7 @@ def simulate(
         [s] a whole number of steps.
     h : float
         [s] step.
-    law : ImpactLaw or callable
+    law : ImpactLaw, str or callable
         Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
         `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
     collisions : bool
@@ -167,35 +162,3 @@ def check_types(model: object, bounds: Mapping[str, object], caller: str) -> Non
         if name not in StepBounds.__annotations__:
             names = ", ".join(StepBounds.__annotations__)
             raise TypeError(f'{caller}() has no argument "{name}"; bounds of a step are {names}')
-
-
-def progress_bar(
-    progress: bool | Progress | None, total: float, unit: str
-) -> AbstractContextManager[Progress | None]:
-    """Give, within `with`, the function that the compiled part is to call with the part done."""
-    if progress is False:
-        return nullcontext()
-    if callable(progress):
-        return nullcontext(progress)
-    return Bar(total, unit, always=progress is True)
-
-
-class Bar:
-    """A bar on stderr; a class, as `contextlib.contextmanager` writes to exceptions it lets out."""
-
-    def __init__(self, total: float, unit: str, *, always: bool) -> None:
-        self.total = total
-        self.bar = tqdm(
-            total=total,
-            unit=unit,
-            bar_format=BAR_FORMAT,
-            delay=0.0 if always else BAR_DELAY,
-            disable=False if always else None,  # None: only where stderr is a terminal
-            leave=always,
-        )
-
-    def __enter__(self) -> Progress:
-        return lambda part: self.bar.update(part * self.total - self.bar.n)
-
-    def __exit__(self, *_: object) -> None:
-        self.bar.close()

@@ -12,8 +12,8 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import ImpactLaw, Model, StepOptions
-from saltus.columns import check_array, index_of
-from saltus.trajectory import Array, Trajectory
+from saltus.records.tables import Array, index_of
+from saltus.runs.trajectory import Trajectory
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -139,5 +139,6 @@ class BatchTrajectory:
         ModelError
             On a name that the array has not; lists those there are.
         """
-        rows: Array = getattr(self, check_array(of))
-        return rows[:, :, index_of(name, of, self.coordinate_names, self.velocity_names)]
+        index = index_of(name, of, self.coordinate_names, self.velocity_names)
+        rows: Array = getattr(self, of)
+        return rows[:, :, index]

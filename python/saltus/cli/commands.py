@@ -9,8 +9,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import saltus
-from saltus import files, plots
-from saltus.impacts import count_line
+from saltus.plots.figure import new_figure
+from saltus.records.files import check_folder
+from saltus.records.impacts import count_line
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
@@ -56,25 +57,25 @@ def simulate(chosen: argparse.Namespace) -> int:
     """Run a model, print its impacts and energy error, write what is asked for."""
     for path in (chosen.out, chosen.plot, chosen.plot_impacts):
         if path is not None:  # before a long run, not after it
-            files.check_folder(path)
+            check_folder(path)
     for path in (chosen.plot, chosen.plot_impacts):
         if path is not None:
-            plots.new_figure(path, (1, 1))  # says at once, not after the run, what is missing
+            new_figure(path, (1, 1))  # says at once, not after the run, what is missing
     try:
         run = _run(chosen)
     except saltus.StepError as error:
         before = error.trajectory
         if chosen.out and before is not None:
-            files.save(before, chosen.out)
+            before.save(chosen.out)
             print(f"trajectory, up to t = {before.t[-1]:g} s: {chosen.out}")
         raise
     _print_impacts(run, everything=chosen.all_impacts)
     print(run.summary())
     if chosen.out:
-        files.save(run, chosen.out)
+        run.save(chosen.out)
         print(f"trajectory: {chosen.out}")
     if chosen.plot:
-        plots.plot(run, chosen.plot)
+        run.plot(chosen.plot)
         print(f"picture: {chosen.plot}")
     if chosen.plot_impacts:
         run.plot_impacts(chosen.plot_impacts)
@@ -89,8 +90,8 @@ def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
         v=dict(chosen.v),
         duration=chosen.duration,
         h=chosen.h,
-        law=saltus.ImpactLaw[chosen.law],
-        order=saltus.ImpactOrder[chosen.order],
+        law=chosen.law,
+        order=chosen.order,
         certify=True,
         collisions=not chosen.no_collisions,
         record_every=chosen.record_every,
@@ -129,12 +130,11 @@ def info(chosen: argparse.Namespace) -> int:
 
 
 def _load(chosen: argparse.Namespace) -> saltus.Model:
-    root = saltus.JointType.floating if chosen.floating else saltus.JointType.fixed
     # Paths, whatever their names begin with: text is for programs.
     return saltus.load_urdf(
         str(Path(chosen.file).absolute()),
-        root_joint=root,
-        meshes=saltus.MeshUse.none if chosen.no_meshes else saltus.MeshUse.hull,
+        root_joint="floating" if chosen.floating else "fixed",
+        meshes="none" if chosen.no_meshes else "hull",
         srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
         contact=chosen.contact,
         floor=chosen.floor,

@@ -1,13 +1,19 @@
-"""Arrays of what happened between bodies: their columns, and the names of pairs."""
+"""The arrays of a run: which there are, their columns, and the names of these."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from saltus._core import Model
+from saltus._core import Model, ModelError
+
+Array = npt.NDArray[np.float64]
+
+ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
+NUMBERS = ("iterations", "residual", "complete", "energy_error")
 
 IMPACT = np.dtype(
     {
@@ -38,3 +44,23 @@ def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ..
     for event in events:
         event["pair"] = np.searchsorted(numbers, event["pair"])
     return tuple(model.pair_name(int(number)) for number in numbers)
+
+
+def index_of(
+    name: str, of: str, coordinate_names: Sequence[str], velocity_names: Sequence[str]
+) -> int:
+    """Return the column of q, v or p (`of`) that has a name.
+
+    Raises ModelError where there is no such array, or none of its columns has the name.
+    """
+    if of not in ("q", "v", "p"):
+        raise ModelError(f'no array "{of}" of coordinates; there are q, v, p')
+    kind, names, others = "coordinate", coordinate_names, velocity_names
+    if of != "q":
+        kind, names, others = "velocity", velocity_names, coordinate_names
+    if name in names:
+        return list(names).index(name)
+    hint = ""
+    if name in others:
+        hint = f' ("{name}" is a column of {"v and p" if of == "q" else "q"})'
+    raise ModelError(f'no {kind} "{name}"{hint}; there are {", ".join(names)}')

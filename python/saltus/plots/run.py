@@ -1,37 +1,33 @@
-"""Pictures of runs. Needs matplotlib: pip install 'saltus[demo]'."""
+"""Pictures of runs: coordinates and energies over time."""
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from saltus._core import ModelError
-from saltus.trajectory import Trajectory
+from saltus.plots.cradle import is_cradle, plot_cradle
+from saltus.plots.figure import finish, new_figure
+from saltus.records.recording import Recording
+from saltus.records.tables import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Array = npt.NDArray[np.float64]
-
 MOST_LABELS = 8  # lines in a legend; more of them are drawn thin and without names
 MOST_MARKS = 300  # impacts drawn as lines
 
 
-def plot(run: Trajectory, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
+def plot(run: Recording, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
     """Draw a run; see `Trajectory.plot`."""
-    from saltus import plots_cradle
-
-    if plots_cradle.is_cradle(run):
-        return plots_cradle.plot_cradle(run, path, **options)
+    if is_cradle(run):
+        return plot_cradle(run, path, **options)
     return plot_run(run, path, **options)
 
 
-def plot_run(run: Trajectory, path: str | os.PathLike[str] | None = None) -> Figure:
+def plot_run(run: Recording, path: str | os.PathLike[str] | None = None) -> Figure:
     """Draw coordinates, energies and the energy's error over time, impacts as vertical lines.
 
     Parameters
@@ -66,39 +62,7 @@ def plot_run(run: Trajectory, path: str | os.PathLike[str] | None = None) -> Fig
     return finish(figure, path)
 
 
-def new_figure(path: str | os.PathLike[str] | None, size: tuple[float, float]) -> Figure:
-    """Return an empty figure: one of pyplot's where it is to be shown, else a free one."""
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise ModelError(
-            f"pictures need matplotlib: pip install 'saltus[demo]' ({error})"
-        ) from None
-    if path is not None:
-        figure = Figure(figsize=size, layout="constrained")
-        _check_ending(figure, path)
-        return figure
-    from matplotlib import pyplot
-
-    return pyplot.figure(figsize=size, layout="constrained")
-
-
-def finish(figure: Figure, path: str | os.PathLike[str] | None) -> Figure:
-    """Write the figure where a path is given."""
-    if path is not None:
-        figure.savefig(path, dpi=150)
-    return figure
-
-
-def _check_ending(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Raise before anything is drawn where the ending is no format."""
-    formats = figure.canvas.get_supported_filetypes()
-    ending = Path(path).suffix.removeprefix(".").lower()
-    if ending and ending not in formats:  # without one, matplotlib adds its default
-        raise ModelError(f'{os.fspath(path)}: no format "{ending}"; there are {", ".join(formats)}')
-
-
-def _groups(run: Trajectory) -> list[tuple[str, list[int]]]:
+def _groups(run: Recording) -> list[tuple[str, list[int]]]:
     """Return (label of the axis, coordinates) of angles, lengths and quaternions."""
     columns = range(len(run.coordinate_names))
     if run.model is None:
@@ -120,7 +84,7 @@ def _draw_lines(axes: Axes, t: Array, rows: Array, names: list[str]) -> None:
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize="small")
 
 
-def _draw_energies(axes: Axes, run: Trajectory) -> None:
+def _draw_energies(axes: Axes, run: Recording) -> None:
     axes.plot(run.t, run.kinetic, lw=1.0, label="kinetic")
     axes.plot(run.t, run.potential, lw=1.0, label="potential")
     axes.plot(run.t, run.total, lw=1.4, color="black", label="total")
@@ -128,7 +92,7 @@ def _draw_energies(axes: Axes, run: Trajectory) -> None:
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize="small")
 
 
-def _draw_energy_error(axes: Axes, run: Trajectory) -> None:
+def _draw_energy_error(axes: Axes, run: Recording) -> None:
     axes.plot(run.t, run.total - run.total[0], lw=1.0, color="black", label="total")
     axes.plot(run.t, run.shadow - run.shadow[0], lw=1.0, color="tab:red", label="shadow")
     axes.set_ylabel("energy error [J]")
@@ -136,7 +100,7 @@ def _draw_energy_error(axes: Axes, run: Trajectory) -> None:
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize="small")
 
 
-def _mark_impacts(axes: Axes, run: Trajectory) -> None:
+def _mark_impacts(axes: Axes, run: Recording) -> None:
     times = run.impacts["t"]
     if 0 < len(times) <= MOST_MARKS:
         for t in times:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 import numpy as np
 
@@ -25,8 +25,8 @@ from saltus._core import (
     __version__,
     read_urdf,
 )
-from saltus.events import CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, SETTLING
-from saltus.trajectory import Trajectory
+from saltus.records.recording import Recording
+from saltus.records.tables import ARRAYS, CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, NUMBERS, SETTLING
 from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
@@ -34,10 +34,10 @@ if TYPE_CHECKING:
 
 FORMAT = "saltus trajectory"
 VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
-ARRAYS = ("t", "q", "v", "p", "kinetic", "potential", "total", "shadow")
 BOUNDS = ("max_iterations", "max_impacts", "max_impulses", "rest", "simultaneous")
 OPTIONS = ("h", "collisions", *BOUNDS)
-NUMBERS = ("iterations", "residual", "complete", "energy_error")
+
+Kind = TypeVar("Kind", bound=Recording)
 
 
 class UrdfOptions(TypedDict):
@@ -50,7 +50,7 @@ class UrdfOptions(TypedDict):
     floor: bool
 
 
-def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
+def save(run: Recording, path: str | os.PathLike[str]) -> None:
     """Write a trajectory; see `Trajectory.save`."""
     import h5py
 
@@ -66,25 +66,8 @@ def save(run: Trajectory, path: str | os.PathLike[str]) -> None:
         part.unlink(missing_ok=True)
 
 
-def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Trajectory:
-    """Read a trajectory that `Trajectory.save` wrote; all numbers are the same to the last bit.
-
-    Parameters
-    ----------
-    path : str or os.PathLike
-    model : Model, optional
-        The model of the run, for files that do not hold it because it was built in code.
-
-    Returns
-    -------
-    Trajectory
-        Its `model` is None where the file holds none and none is given.
-
-    Raises
-    ------
-    ModelError
-        On a file that holds no trajectory, and on a model that is not that of the run.
-    """
+def read(kind: type[Kind], path: str | os.PathLike[str], model: Model | None) -> Kind:
+    """Read a trajectory, as a recording of this kind; see `saltus.load`."""
     import h5py
 
     path = Path(path)
@@ -92,7 +75,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
         raise ModelError(f"{path}: there is no such file")
     try:
         with h5py.File(path, "r") as file:
-            return _read(file, path, model)
+            return _read(kind, file, path, model)
     except (OSError, KeyError) as error:
         raise ModelError(f"{path} is no trajectory that saltus can read: {error}") from None
 
@@ -106,7 +89,7 @@ def check_folder(path: str | os.PathLike[str]) -> None:
         raise ModelError(f"{path}: there is no folder {path.parent}")
 
 
-def _write(run: Trajectory, file: h5py.File) -> None:
+def _write(run: Recording, file: h5py.File) -> None:
     import h5py
 
     text = h5py.string_dtype()
@@ -146,7 +129,7 @@ def _write(run: Trajectory, file: h5py.File) -> None:
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
-def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
+def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) -> Kind:
     if file.attrs.get("format") != FORMAT:
         raise ModelError(f"{path} holds no trajectory of saltus")
     if file.attrs["version"] > VERSION:
@@ -187,7 +170,7 @@ def _read(file: h5py.File, path: Path, model: Model | None) -> Trajectory:
             model = model.without_collisions()
     if model is not None:
         _check_model(model, coordinates, pairs, path)
-    return Trajectory(
+    return kind(
         model=model,
         options=_step_options(file, options),
         coordinate_names=coordinates,

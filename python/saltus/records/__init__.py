@@ -1,0 +1,1 @@
+"""What is recorded of a run: plain data, impacts in words, files."""

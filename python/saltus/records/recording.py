@@ -1,0 +1,173 @@
+"""What is recorded of a run, with accessors; `Trajectory` adds what takes files and plots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from saltus import _core
+from saltus._core import Impact, ImpactLaw, Model, ModelError, State, StepOptions
+from saltus.records.tables import (
+    ARRAYS,
+    CONTACT,
+    IMPACT,
+    IMPULSE,
+    NUMBERS,
+    SETTLING,
+    Array,
+    index_of,
+    names_of_pairs,
+)
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Recording:
+    """The data of a run; `Trajectory` says of each array what it holds."""
+
+    model: Model | None
+    options: StepOptions
+    coordinate_names: tuple[str, ...]
+    velocity_names: tuple[str, ...]
+    pair_names: tuple[str, ...]
+    t: Array
+    q: Array
+    v: Array
+    p: Array
+    kinetic: Array
+    potential: Array
+    total: Array
+    shadow: Array
+    impacts: npt.NDArray[np.void]
+    impulses: npt.NDArray[np.void]
+    settlings: npt.NDArray[np.void]
+    certificates: tuple[str, ...]
+    iterations: int
+    residual: float
+    complete: bool
+    energy_error: float
+    recorded_contacts: npt.NDArray[np.void] | None = None
+
+    @property
+    def contacts(self) -> npt.NDArray[np.void]:
+        """Every impulse between bodies, see `Trajectory`; ModelError where not recorded."""
+        if self.recorded_contacts is None:
+            raise ModelError(
+                "the contacts of this run were not recorded; ask for them: "
+                "saltus.simulate(..., record_contacts=True)"
+            )
+        return self.recorded_contacts
+
+    @classmethod
+    def from_core(cls, core: _core.Trajectory) -> Self:
+        """Wrap what the compiled part returns; large arrays are not copied."""
+        impacts = core.impacts.astype(IMPACT)
+        own = core.impulses
+        impulses = np.empty(len(own), IMPULSE)
+        impulses["impact"] = np.repeat(np.arange(len(impacts)), impacts["count"])
+        for name in own.dtype.names or ():
+            impulses[name] = own[name]
+        settlings = core.settlings.astype(SETTLING)
+        events = [impulses, settlings]
+        contacts = None if core.contacts is None else core.contacts.astype(CONTACT)
+        if contacts is not None:
+            events.append(contacts)
+        model = core.model
+        pair_names = names_of_pairs(model, *events)
+        for array in (impacts, *events):
+            array.flags.writeable = False
+        return cls(
+            model=model,
+            options=core.options,
+            coordinate_names=tuple(model.coordinate_names),
+            velocity_names=tuple(model.velocity_names),
+            pair_names=pair_names,
+            impacts=impacts,
+            impulses=impulses,
+            settlings=settlings,
+            recorded_contacts=contacts,
+            certificates=tuple(core.certificates),
+            **{name: getattr(core, name) for name in (*ARRAYS, *NUMBERS)},
+        )
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        return f"<saltus.{type(self).__name__}: {self.summary()}>"
+
+    def summary(self) -> str:
+        """Return one line that says how long, how many impacts and how exact."""
+        law = ImpactLaw(self.options.law).name
+        span = f"{self.t[0]:g} to {self.t[-1]:g} s" + ("" if self.complete else " (stopped)")
+        return (
+            f"{span}, h = {self.options.h:g} s, {law}, {len(self)} rows, {self.q.shape[1]} "
+            f"coordinates, {len(self.impacts)} impacts with {len(self.impulses)} impulses, "
+            f"energy error {self.energy_error:.1e}"
+        )
+
+    def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:
+        """Return one coordinate, velocity or momentum over time.
+
+        Parameters
+        ----------
+        name : str
+            Name of the coordinate, or with "v" and "p" of the velocity.
+        of : {"q", "v", "p"}
+            Which array it is a column of.
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows,)
+
+        Raises
+        ------
+        ModelError
+            On a name that the array has not; lists those there are.
+        """
+        index = index_of(name, of, self.coordinate_names, self.velocity_names)
+        rows: Array = getattr(self, of)
+        return rows[:, index]
+
+    def state(self, row: int) -> State:
+        """Return the state of a row; negative rows count from the end."""
+        return State(float(self.t[row]), self.q[row], self.p[row])
+
+    def impact(self, index: int) -> Impact:
+        """Return one impact with its pairs by name; printed, it is a table of its cascade."""
+        row = self.impacts[index]
+        own = self.impulses[row["first"] : row["first"] + row["count"]]
+        return Impact(
+            float(row["t"]),
+            [self.pair_names[pair] for pair in own["pair"]],
+            own["lambda"],
+            contacts=int(row["contacts"]),
+            law=ImpactLaw(int(row["law"])),
+            fallback=bool(row["fallback"]),
+            certificate=self.certificates[index] if self.certificates else "",
+            tangentials=own["tangential"],
+            points=own["point"],
+            normals=own["normal"],
+        )
+
+    def require_model(self) -> Model:
+        """Return the model; raise ModelError where there is none."""
+        if self.model is None:
+            raise ModelError(
+                "this trajectory has no model, which was built in code and not from URDF text; "
+                "give it to load: saltus.load(path, model=model)"
+            )
+        return self.model
+
+    def poses(self, link: str | int) -> Array:
+        """Return the homogeneous matrices of a link, shape (rows, 4, 4)."""
+        return self.require_model().poses(self.q, link)
+
+    def velocities(self, link: str | int) -> Array:
+        """Return angular velocity [rad/s] and velocity of a link's origin [m/s], (rows, 6)."""
+        return self.require_model().velocities(self.q, self.v, link)

@@ -1,0 +1,1 @@
+"""Running models, and what a run gives back."""

@@ -1,0 +1,140 @@
+"""A recorded motion as the user has it: what was recorded, to be saved and drawn."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from saltus import plots
+from saltus._core import Model
+from saltus.records import files
+from saltus.records.recording import Recording
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Recording):
+    """A recorded motion: rows are states, made by `simulate` and `load`.
+
+    Attributes
+    ----------
+    model : Model or None
+        None where it was loaded from a file that could not hold the model.
+    options : StepOptions
+    coordinate_names : tuple of str
+        Of the columns of `q`.
+    velocity_names : tuple of str
+        Of the columns of `v` and `p`; those of `q`, but for free and ball joints.
+    pair_names : tuple of str
+        Of all pairs; where the model has more than `LISTED_PAIRS`, of those that the arrays name.
+    t : numpy.ndarray, shape (rows,)
+        [s]
+    q : numpy.ndarray, shape (rows, n_q)
+        Coordinates [rad | m], of free and ball joints with unit quaternions x y z w.
+    v, p : numpy.ndarray, shape (rows, n_v)
+        Velocities and momenta, of free and ball joints in their parents' axes.
+    kinetic, potential, total : numpy.ndarray, shape (rows,)
+        [J]
+    shadow : numpy.ndarray, shape (rows,)
+        [J] H - h^2 kappa / 24, which a fixed step conserves to O(h^4): a monitor of health.
+    impacts : numpy.ndarray
+        Structured, in order of time: "t" [s], "first" and "count" (its rows in `impulses`),
+        "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
+    impulses : numpy.ndarray
+        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s]
+        along the normal, and in the world, three numbers each: "tangential" [N s] (friction on the
+        pair's first shape), "point" [m] (where the two touch, halfway between their nearest
+        points), "normal" (unit, from the pair's second shape to the first). Point and normal are
+        NaN in runs from files of before they were kept.
+    contacts : numpy.ndarray
+        Structured, with `record_contacts` alone: every impulse that acted between bodies, those of
+        impacts and the sums that held pairs closed over each step (`ContactImpulse`). "row" (the
+        first recorded row at or after the end of its step), "t" [s] (of the impact, or the end of
+        the step), "impact" (row of `impacts`; -1: what held a pair closed), and "pair", "lambda",
+        "tangential", "point", "normal" as in `impulses`. Without friction what ends the bounces of
+        a pair that settles is among them, and pulls: "lambda" < 0. ModelError where they were not
+        recorded.
+    settlings : numpy.ndarray
+        Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
+    certificates : tuple of str
+        Of each impact whether its outcome is unique; empty unless `certify` asked for it.
+    iterations : int
+        Newton iterations in all.
+    residual : float
+        [largest momentum] the worst of any step.
+    complete : bool
+        False where the run was stopped or failed before its end.
+    energy_error : float
+        Greatest |H(t) - H(0)| over the greatest kinetic energy of the run.
+    """
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to an HDF5 file, with the model's URDF text in it.
+
+        A model that was built in code has no text; the file says so, and `load` then needs the
+        model to be given again.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+        """
+        files.save(self, path)
+
+    def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
+        """Draw the run: a cradle as velocities with sketches, others as coordinates and energies.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            Where the picture is written; its ending says in which format.
+        **options
+            As in `saltus.plots.plot_cradle` or `saltus.plots.plot_run`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return plots.plot(self, path, **options)
+
+    def plot_impacts(
+        self, path: str | os.PathLike[str] | None = None, *, index: int | None = None
+    ) -> Figure:
+        """Draw which pairs took impulses when, or one impact as a cascade.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            Where the picture is written; its ending says in which format.
+        index : int, optional
+            The impact to draw as a cascade; else all of them over time.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        return plots.plot_impacts(self, path, index=index)
+
+
+def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Trajectory:
+    """Read a trajectory that `Trajectory.save` wrote; all numbers are the same to the last bit.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+    model : Model, optional
+        The model of the run, for files that do not hold it because it was built in code.
+
+    Returns
+    -------
+    Trajectory
+        Its `model` is None where the file holds none and none is given.
+
+    Raises
+    ------
+    ModelError
+        On a file that holds no trajectory, and on a model that is not that of the run.
+    """
+    return files.read(Trajectory, path, model)
