@@ -232,3 +232,9 @@ def test_engines_that_are_not_there_are_said(monkeypatch, tmp_path):
     )
     with pytest.raises(ValueError, match="no engine 'mujuco'; engines are saltus, mujoco"):
         processes.present(tmp_path, ["mujuco"])
+
+
+def test_the_page_is_that_of_the_template():
+    page = (ROOT / "python" / "docs" / "real_tosses.md").read_text(encoding="utf-8")
+    for prose in re.split(r"\{\w+\}", report.TEMPLATE.read_text(encoding="utf-8")):
+        assert prose in page
