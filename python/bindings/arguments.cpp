@@ -11,7 +11,11 @@ namespace {
 
 std::string show(const py::handle& x) { return py::repr(x).cast<std::string>(); }
 
+/// Texts and truth values are no numbers, though Python makes numbers of them.
 double to_number(const py::handle& x, const std::string& what) {
+  const bool is_text = py::isinstance<py::str>(x) || py::isinstance<py::bytes>(x);
+  if (is_text || py::isinstance<py::bool_>(x))
+    throw ModelError(what + " = " + show(x) + " is no number");
   try {
     return py::float_(py::reinterpret_borrow<py::object>(x));
   } catch (py::error_already_set&) {
@@ -40,10 +44,21 @@ bool is_list(const py::handle& x) {
   return py::isinstance<py::sequence>(x);
 }
 
+/// @throws where R is a mirror, a shear or worse
+void check_rotation(const Pose& X, const std::string& entry) {
+  // 1e-6: what is left of a rotation written with six digits
+  const double defect = (X.R.transpose() * X.R - Mat3::Identity()).norm();
+  if (defect < 1e-6 && X.R.determinant() > 0) return;
+  throw ModelError(entry + " is a Pose whose R is no rotation: its determinant is " +
+                   show(py::float_(X.R.determinant())) + ", R^T R is off by " +
+                   show(py::float_(defect)));
+}
+
 /// Numbers in a sequence, of sequences or not: (position, quaternion) is seven.
 void append_numbers(const py::handle& x, const std::string& entry, std::vector<double>& out) {
   if (py::isinstance<Pose>(x)) {
     const Pose& X = x.cast<const Pose&>();
+    check_rotation(X, entry);
     const Quaternion q = Quaternion(X.R).normalized();
     out.insert(out.end(), X.p.begin(), X.p.end());
     out.insert(out.end(), q.coeffs().begin(), q.coeffs().end());
@@ -54,6 +69,21 @@ void append_numbers(const py::handle& x, const std::string& entry, std::vector<d
   } else {
     out.push_back(to_number(x, entry));
   }
+}
+
+/// How many numbers the parts of a sequence of sequences have; empty where it is one of numbers.
+std::vector<std::size_t> part_sizes(const py::handle& value, const std::string& entry) {
+  std::vector<std::size_t> sizes;
+  if (!is_list(value)) return sizes;
+  bool any = false;
+  for (const py::handle each : value) {
+    std::vector<double> numbers;
+    append_numbers(each, entry, numbers);
+    sizes.push_back(numbers.size());
+    any = any || is_list(each) || py::hasattr(each, "as_quat");
+  }
+  if (!any) sizes.clear();
+  return sizes;
 }
 
 /// The numbers of a joint that has several: `given` may lack the position of a free joint's q.
@@ -68,7 +98,10 @@ void set_joint(const py::handle& value, const std::string& entry, const JointInf
     throw ModelError(entry + " is a Pose; a ball joint takes a quaternion x y z w or a Rotation",
                      "joint", joint.name);
   }
-  if (given.size() + first != indices.size()) {
+  const std::vector<std::size_t> parts = part_sizes(value, entry);
+  const bool is_split = joint.type == JointType::floating && !parts.empty() &&
+                        parts != std::vector<std::size_t>{3, is_q ? 4u : 3u};
+  if (given.size() + first != indices.size() || is_split) {
     std::string wanted = std::to_string(indices.size()) + " numbers";
     if (joint.type == JointType::floating) {
       wanted = is_q ? "a Pose, a Rotation, or position and quaternion (x y z, x y z w)"
@@ -76,8 +109,11 @@ void set_joint(const py::handle& value, const std::string& entry, const JointInf
     } else if (joint.type == JointType::spherical) {
       wanted = is_q ? "a quaternion x y z w or a Rotation" : "an angular velocity x y z";
     }
-    throw ModelError(entry + " has " + std::to_string(given.size()) + " numbers; joint \"" +
-                         joint.name + "\" takes " + wanted,
+    std::string has = std::to_string(given.size()) + " numbers";
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      has += (k == 0 ? " in parts of " : ", ") + std::to_string(parts[k]);
+    }
+    throw ModelError(entry + " has " + has + "; joint \"" + joint.name + "\" takes " + wanted,
                      "joint", joint.name);
   }
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -147,6 +183,11 @@ VecX from_array(const py::object& x, const std::string& what, int n) {
   } catch (py::error_already_set& error) {
     throw ModelError(what +
                      " is no array of numbers: " + py::str(error.value()).cast<std::string>());
+  }
+  const char kind = py::array(x).dtype().kind();
+  if (kind == 'U' || kind == 'S' || kind == 'b') {
+    throw ModelError(what + (kind == 'b' ? " holds truth values" : " holds texts") +
+                     "; it is an array of numbers");
   }
   if (array.ndim() != 1) {
     throw ModelError(what + " has shape " + show(array.attr("shape")) + "; it must have shape (" +

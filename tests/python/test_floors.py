@@ -24,8 +24,8 @@ FLOORS["rollout"] = FLOORS["variational"] | {"variational"}
 FLOORS["urdf"] = FLOORS["model"] | {"model"}
 FLOORS["saltus"] = set(FLOORS)  # the umbrella header
 
-# Rooms of a floor: a file includes its own room and those before it. Headers that users include have
-# no folders; here is whose they are.
+# Rooms of a floor: a file includes its own room and those before it. Headers that users include
+# have no folders; here is whose they are.
 ROOMS: dict[str, dict[str, set[str]]] = {
     "collision": {
         "shapes": {"shapes", "hull"},

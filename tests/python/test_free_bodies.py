@@ -65,7 +65,18 @@ def test_a_joint_takes_all_that_is_a_pose():
         ({"fre": 1}, 'no coordinate "fre"; there are free_x, .*free_qw, free'),
         ({"free": saltus.Pose(), "free_z": 1}, '"free_z" twice, by its name and by its joint'),
         ({"free_qw": 0.5}, "of length 0.5; its length is 1"),
+        ({"free_qw": 1.000002}, "of length 1.000002; its length is 1"),
         ({"free_x": math.nan}, "is not finite"),
+        ({"free_x": "1"}, "'1' is no number"),
+        ({"free_x": True}, "True is no number"),
+        (["0", "0", "0", "0", "0", "0", "1"], "q holds texts; it is an array of numbers"),
+        ([False] * 6 + [True], "q holds truth values"),
+        (
+            {"free": saltus.Pose((0, 0, 0), np.diag([1, 1, -1]))},
+            "R is no rotation: its determinant",
+        ),
+        ({"free": saltus.Pose((0, 0, 0), 2 * np.eye(3))}, "R is no rotation"),
+        ({"free": ((0, 0), (0, 0, 0, 0, 1))}, "has 7 numbers in parts of 2, 5; .* takes a Pose"),
         ([0, 0, 1, 0, 0, 0], "q has 6 entries; the model has 7 coordinates"),
     ],
 )
@@ -77,6 +88,10 @@ def test_mistakes_are_named(q, message):
 def test_mistakes_in_velocities_are_named():
     with pytest.raises(saltus.ModelError, match="takes velocity and angular velocity"):
         brick().state(v={"free": (1, 2)})
+    with pytest.raises(
+        saltus.ModelError, match=r"6 numbers in parts of 2, 2, 2; .* takes velocity"
+    ):
+        brick().state(v={"free": np.array(((1, 0, 0), (0, 0, 5))).T})
     with pytest.raises(saltus.ModelError, match='no velocity "free_x"; there are free_vx'):
         brick().state(v={"free_x": 1})
     with pytest.raises(saltus.ModelError, match="is a Pose; a ball joint takes a quaternion"):

@@ -61,7 +61,7 @@ Assembly::Place Assembly::add_joint_frames(const Place& parent, int spec) {
   const JointSpec& joint = d_.joints[spec];
   m_.joints.push_back({joint.name, joint.type, joint.parent, joint.child, {}, {}, {}});
   const Mat3 A =
-      has_axis(joint.type) ? rotation_z_to(joint.axis.normalized()) : Mat3(Mat3::Identity());
+      has_axis(joint.type) ? rotation_z_to(joint.axis.stableNormalized()) : Mat3(Mat3::Identity());
   Place at{parent.joint, parent.X_JF * joint.X_PJ * Pose{A, Vec3::Zero()}};
   int velocity = first_velocity_[base_[spec]];
   for (const Axis& axis : composition(joint.type)) at = add_frame(at, axis, spec, velocity++);

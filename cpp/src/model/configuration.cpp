@@ -22,6 +22,7 @@ const JointInfo& joint_of(const ModelData& model, const Ball& ball) {
   const std::string& joint = joint_of(model, ball).name;
   const auto x = q.segment<4>(ball.coordinate);
   std::ostringstream text;
+  text.precision(9);  // what is refused differs from length 1 by 1e-6
   text << what << " has the quaternion (" << x[0] << " " << x[1] << " " << x[2] << " " << x[3]
        << ") for joint \"" << joint << "\", of length " << x.norm()
        << "; its length is 1 (x y z w, the identity is 0 0 0 1)";

@@ -96,7 +96,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
   JointSpec checked = joint;
   checked.X_PJ = checked_pose(joint.X_PJ, "joint", joint.name);
   if (!joint.axis.allFinite()) fail("has an axis that is not finite: " + show(joint.axis));
-  if (joint.axis.norm() == 0) fail("has zero axis");
+  if (joint.axis.stableNorm() == 0) fail("has zero axis");
   if (!std::isfinite(joint.pitch)) fail("has a pitch that is not finite");
   if (joint.pitch != 0 && joint.type != JointType::helical) fail("has a pitch but is not helical");
   if (std::isnan(joint.lower) || std::isnan(joint.upper) || joint.lower > joint.upper) {
@@ -129,7 +129,7 @@ ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shap
 
 ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& normal,
                                            double offset) {
-  if (!normal.allFinite() || normal.norm() == 0 || !std::isfinite(offset)) {
+  if (!normal.allFinite() || normal.stableNorm() == 0 || !std::isfinite(offset)) {
     std::ostringstream text;
     text << "half-space " << quoted(name) << " has normal " << show(normal) << " and offset "
          << offset << "; both are finite, and the normal is not zero";
@@ -141,9 +141,9 @@ ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& 
       throw ModelError("two half-spaces are named " + quoted(name), "half_space", name);
     }
   }
-  const Vec3 n = normal.normalized();
+  const Vec3 n = normal.stableNormalized();
   d_.shapes.push_back(
-      {d_.root, name, HalfSpace{}, {rotation_z_to(n), n * (offset / normal.norm())}});
+      {d_.root, name, HalfSpace{}, {rotation_z_to(n), n * (offset / normal.stableNorm())}});
   return *this;
 }
 

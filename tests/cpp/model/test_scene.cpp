@@ -135,6 +135,19 @@ TEST(AddFloor, EachHasItsOwnProperties) {
   EXPECT_NEAR(model.gaps(model.state().q).phi.maxCoeff(), 9 - 0.1, 1e-12);
 }
 
+TEST(Scene, AFloorsNormalIsOfAnyLength) {
+  for (const double length : {1e-300, 1e-100, 1.0, 1e100, 1e300}) {
+    ModelBuilder b("scene");
+    b.add_floor({.normal = {0, 0, length}, .offset = 0.25 * length});
+    b.add_body(
+        {.name = "ball", .shape = Sphere{0.5}, .mass = 1, .X = {Mat3::Identity(), {0, 0, 3}}});
+    const Model model = b.build();
+    const Gaps gaps = model.gaps(model.neutral());
+    EXPECT_NEAR(gaps.phi[0], 2.25, 1e-15) << length;
+    EXPECT_EQ(gaps.normal(0, 2), 1);
+  }
+}
+
 TEST(AddFloor, MistakesAreNamedAndNothingIsAdded) {
   ModelBuilder builder = balls().add_floor();
   const auto refuse = [&](const FloorSpec& floor, const std::string& part) {
