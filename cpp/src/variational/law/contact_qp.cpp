@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -166,7 +167,8 @@ VecX contact_multipliers(const Eigen::Ref<const MatX>& G, const VecRef& u) {
   const double size = rate.cwiseAbs().maxCoeff();
   rate /= size;
   const VecX guess = solve_nonnegative(problem.G, rate);
-  Best best{guess, miss(problem.G, rate, guess)};
+  // however exact the guess, it is one of many where contacts are redundant, not the shortest
+  Best best{guess, std::numeric_limits<double>::infinity()};
   // From loose to tight: a rate that is 0 is among those "at most 1e-4" however inexact the guess,
   // so that contacts alike are treated alike; one that is 1e-5 is told by the check.
   const VecX after = rate + problem.G * guess;
@@ -177,6 +179,7 @@ VecX contact_multipliers(const Eigen::Ref<const MatX>& G, const VecRef& u) {
     }
     best.offer(problem.G, rate, closed_by(problem.G, rate, stay));
   }
+  if (best.miss > accuracy) best.offer(problem.G, rate, guess);
   if (best.miss > accuracy) pivot(problem.G, rate, best);
   if (!(best.miss <= accuracy + 10 * rounding * best.lambda.maxCoeff())) {
     std::ostringstream text;

@@ -184,9 +184,10 @@ Settled PileIsland::settle_scaled(double part) {
   s_.p_best = s_.p;
   s_.u_best = s_.u;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
-    const int before = out.iterations;
+    const Settled before = out;
     const bool taken = take_round(rho, out);
-    const bool easy = out.iterations - before <= 2;
+    const bool grows = taken && (is_convex_ || out.residual < before.residual);
+    const bool easy = out.iterations - before.iterations <= 2;
     if (!taken && out.residual < 1e-12) break;  // rounding
     if (out.residual < best.residual) {
       best = out;
@@ -199,7 +200,7 @@ Settled PileIsland::settle_scaled(double part) {
     } else if (++idle == (out.excess <= 0 || (rho > stiff_rho && !is_convex_) ? 3 : most_idle)) {
       break;  // rounding of gaps, or rates that no impulses can end
     }
-    rho = taken ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
+    rho = grows ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
   }
   best.iterations = out.iterations;
   s_.p.swap(s_.p_best);
