@@ -74,7 +74,7 @@ void append_numbers(const py::handle& x, const std::string& entry, std::vector<d
 /// How many numbers the parts of a sequence of sequences have; empty where it is one of numbers.
 std::vector<std::size_t> part_sizes(const py::handle& value, const std::string& entry) {
   std::vector<std::size_t> sizes;
-  if (!is_list(value)) return sizes;
+  if (!is_list(value) || py::hasattr(value, "as_quat")) return sizes;
   bool any = false;
   for (const py::handle each : value) {
     std::vector<double> numbers;

@@ -53,6 +53,9 @@ friction_residual : float
 impacts : list of Impact
 settlings : list of (float, str)
     Time [s] and name of each pair that bounced ever lower and has come to rest.
+fallbacks : list of (float, float, str)
+    Empty as a rule. A step that could not be made as it should: its start [s], the longest arc that
+    it was made of [s], and how: "halved", by arcs of half the step, a quarter, ...
 contacts : list of ContactImpulse
     What held pairs closed over the step, a pair once, impacts left aside.
 )";
@@ -177,6 +180,7 @@ void bind_step_report(py::module_& m) {
       .def_readonly("impacts", &R::impacts)
       .def_readonly("settlings", &R::settlings)
       .def_readonly("contacts", &R::contacts)
+      .def_readonly("fallbacks", &R::fallbacks)
       .def("__repr__", [](const R& self) {
         return "StepReport(iterations=" + std::to_string(self.iterations) +
                ", arcs=" + std::to_string(self.arcs) +
@@ -187,7 +191,8 @@ void bind_step_report(py::module_& m) {
 }  // namespace
 
 NamedReport with_names(const Model& model, const StepReport& r) {
-  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual, {}, {}, {}};
+  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual,
+                  {},           {},     {},          {}};
   for (const Impact& impact : r.impacts) {
     out.impacts.push_back(with_names(model, r, impact));
   }
@@ -196,6 +201,9 @@ NamedReport with_names(const Model& model, const StepReport& r) {
   }
   for (const Settling& each : r.settlings) {
     out.settlings.emplace_back(each.t, model.pair_name(each.pair));
+  }
+  for (const Fallback& each : r.fallbacks) {
+    out.fallbacks.emplace_back(each.t, each.tau, rung_name(each.rung));
   }
   for (const ContactImpulse& each : r.contacts) {
     out.contacts.push_back(

@@ -44,6 +44,9 @@ max_iterations : int
     Newton iterations an arc; 2 to 4 are usual.
 max_impacts : int
     Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
+max_halvings : int
+    How often a step that cannot be made is tried anew with arcs of half the duration: by default
+    down to h / 64; 0: never. `StepReport.fallbacks` tells.
 max_impulses : int
     Impulses an impact.
 rest : float
@@ -127,8 +130,9 @@ void bind_step_options(py::module_& m) {
            py::arg_v("law", o.law, "ImpactLaw.nodal_energy"), py::arg("collisions") = o.collisions,
            py::kw_only(), py::arg_v("order", o.order, "ImpactOrder.fastest"),
            py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
-           py::arg("max_impacts") = o.max_impacts, py::arg("max_impulses") = o.max_impulses,
-           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)
+           py::arg("max_impacts") = o.max_impacts, py::arg("max_halvings") = o.max_halvings,
+           py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
+           py::arg("simultaneous") = o.simultaneous)
       .def_readonly("h", &O::h, "[s]")
       .def_readonly("law", &O::law, "`ImpactLaw.custom` for a function")
       .def_readonly("order", &O::order)
@@ -136,6 +140,7 @@ void bind_step_options(py::module_& m) {
       .def_readonly("collisions", &O::collisions)
       .def_readonly("max_iterations", &O::max_iterations)
       .def_readonly("max_impacts", &O::max_impacts)
+      .def_readonly("max_halvings", &O::max_halvings)
       .def_readonly("max_impulses", &O::max_impulses)
       .def_readonly("rest", &O::rest)
       .def_readonly("simultaneous", &O::simultaneous)
@@ -145,9 +150,9 @@ void bind_step_options(py::module_& m) {
              return "StepOptions(h=" + py::repr(h).cast<std::string>() +
                     ", law=" + law.attr("name").cast<std::string>() + ", ...)";
            })
-      .def(
-          pickle_options<&O::h, &O::law, &O::collisions, &O::order, &O::certify, &O::max_iterations,
-                         &O::max_impacts, &O::max_impulses, &O::rest, &O::simultaneous>());
+      .def(pickle_options<&O::h, &O::law, &O::collisions, &O::order, &O::certify,
+                          &O::max_iterations, &O::max_impacts, &O::max_halvings, &O::max_impulses,
+                          &O::rest, &O::simultaneous>());
 }
 
 }  // namespace

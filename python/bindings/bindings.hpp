@@ -93,7 +93,8 @@ Enum to_enum(const Choice<Enum>& x, const char* what) {
 /// The options of a step, as both StepOptions and Stepper take them.
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
                               const Choice<ImpactOrder>& order, bool certify, int max_iterations,
-                              int max_impacts, int max_impulses, double rest, double simultaneous);
+                              int max_impacts, int max_halvings, int max_impulses, double rest,
+                              double simultaneous);
 
 /// How links and shapes are named.
 using NameOrIndex = py::typing::Union<py::str, py::int_>;

@@ -41,7 +41,8 @@ void set_law(const LawChoice& law, StepOptions& options) {
 
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
                               const Choice<ImpactOrder>& order, bool certify, int max_iterations,
-                              int max_impacts, int max_impulses, double rest, double simultaneous) {
+                              int max_impacts, int max_halvings, int max_impulses, double rest,
+                              double simultaneous) {
   StepOptions options;
   options.h = h;
   set_law(law, options);
@@ -50,6 +51,7 @@ StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
   options.certify = certify;
   options.max_iterations = max_iterations;
   options.max_impacts = max_impacts;
+  options.max_halvings = max_halvings;
   options.max_impulses = max_impulses;
   options.rest = rest;
   options.simultaneous = simultaneous;

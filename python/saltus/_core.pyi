@@ -1743,6 +1743,9 @@ class StepOptions:
         Newton iterations an arc; 2 to 4 are usual.
     max_impacts : int
         Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
+    max_halvings : int
+        How often a step that cannot be made is tried anew with arcs of half the duration: by default
+        down to h / 64; 0: never. `StepReport.fallbacks` tells.
     max_impulses : int
         Impulses an impact.
     rest : float
@@ -1763,6 +1766,7 @@ class StepOptions:
         certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
+        max_halvings: typing.SupportsInt | typing.SupportsIndex = 6,
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
         rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
@@ -1783,6 +1787,8 @@ class StepOptions:
         """
         `ImpactLaw.custom` for a function
         """
+    @property
+    def max_halvings(self) -> int: ...
     @property
     def max_impacts(self) -> int: ...
     @property
@@ -2035,6 +2041,9 @@ class StepReport:
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
+    fallbacks : list of (float, float, str)
+        Empty as a rule. A step that could not be made as it should: its start [s], the longest arc that
+        it was made of [s], and how: "halved", by arcs of half the step, a quarter, ...
     contacts : list of ContactImpulse
         What held pairs closed over the step, a pair once, impacts left aside.
     """
@@ -2043,6 +2052,8 @@ class StepReport:
     def arcs(self) -> int: ...
     @property
     def contacts(self) -> list[ContactImpulse]: ...
+    @property
+    def fallbacks(self) -> list[tuple[float, float, str]]: ...
     @property
     def friction_residual(self) -> float: ...
     @property
@@ -2070,7 +2081,8 @@ class Stepper:
         [s] step.
     law : ImpactLaw, str or callable
         As in `StepOptions`.
-    collisions, order, certify, max_iterations, max_impacts, max_impulses, rest, simultaneous
+    collisions, order, certify, max_iterations, max_impacts, max_halvings, max_impulses, rest,
+    simultaneous
         As in `StepOptions`.
 
     Raises
@@ -2091,6 +2103,7 @@ class Stepper:
         certify: bool = False,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 40,
         max_impacts: typing.SupportsInt | typing.SupportsIndex = 1000,
+        max_halvings: typing.SupportsInt | typing.SupportsIndex = 6,
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
         rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
@@ -2149,6 +2162,11 @@ class Trajectory:
         """
     @property
     def energy_error(self) -> float: ...
+    @property
+    def fallbacks(self) -> typing.Any:
+        """
+        structured array: t, tau, rung
+        """
     @property
     def impacts(self) -> typing.Any:
         """

@@ -113,7 +113,7 @@ def test_a_value_of_a_wrong_type(call, message):
         (
             lambda: saltus.Stepper(cradle(), hh=0.1),
             'Stepper() has no argument "hh"; arguments are model, h, law, collisions, order, '
-            "certify, max_iterations, max_impacts, max_impulses, rest, simultaneous",
+            "certify, max_iterations, max_impacts, max_halvings, max_impulses, rest, simultaneous",
         ),
         (lambda: saltus.Capsule(0.1), "Capsule() lacks half_length; arguments are radius, half_l"),
         (

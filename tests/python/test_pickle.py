@@ -129,10 +129,11 @@ def test_runs_from_before_trajectory_moved_are_read():
 def test_options_but_no_functions():
     options = saltus.StepOptions(
         0.002, "compensated", False, order=saltus.ImpactOrder.symmetric, certify=True,
-        max_iterations=9, max_impacts=8, max_impulses=7, rest=1e-9, simultaneous=1e-8,
+        max_iterations=9, max_impacts=8, max_halvings=3, max_impulses=7, rest=1e-9,
+        simultaneous=1e-8,
     )  # fmt: skip
     names = [name for name in vars(saltus.StepOptions) if not name.startswith("_")]
-    assert len(names) == 10
+    assert len(names) == 11
     for name in names:
         assert getattr(again(options), name) == getattr(options, name)
     with pytest.raises(TypeError, match="whose law is a function have no pickle"):

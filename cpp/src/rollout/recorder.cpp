@@ -22,7 +22,7 @@ Energies energies(const Model& model, const State& state, double h) {
 }
 
 Trajectory empty_trajectory(const Model& model, Eigen::Index rows) {
-  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
+  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
   for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->setZero(rows);
   run.q.setZero(rows, model.n_q());
   for (MatX* x : {&run.v, &run.p}) x->setZero(rows, model.n_v());
@@ -47,6 +47,7 @@ void take_outcome(RunOutcome&& outcome, Trajectory& run) {
   run.impacts = std::move(outcome.impacts);
   run.impulses = std::move(outcome.impulses);
   run.settlings = std::move(outcome.settlings);
+  run.fallbacks = std::move(outcome.fallbacks);
   run.certificates = std::move(outcome.certificates);
   run.contacts = std::move(outcome.contacts);
   if (run.contacts) {

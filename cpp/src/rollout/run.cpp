@@ -61,6 +61,8 @@ void add_report(const StepReport& report, RunOutcome& outcome) {
   outcome.impulses.insert(outcome.impulses.end(), report.impulses.begin(), report.impulses.end());
   outcome.settlings.insert(outcome.settlings.end(), report.settlings.begin(),
                            report.settlings.end());
+  outcome.fallbacks.insert(outcome.fallbacks.end(), report.fallbacks.begin(),
+                           report.fallbacks.end());
   outcome.certificates.insert(outcome.certificates.end(), report.certificates.begin(),
                               report.certificates.end());
   outcome.iterations += report.iterations;

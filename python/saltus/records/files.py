@@ -26,7 +26,16 @@ from saltus._core import (
     read_urdf,
 )
 from saltus.records.recording import Recording
-from saltus.records.tables import ARRAYS, CONTACT, IMPACT, IMPULSE, LISTED_PAIRS, NUMBERS, SETTLING
+from saltus.records.tables import (
+    ARRAYS,
+    CONTACT,
+    FALLBACK,
+    IMPACT,
+    IMPULSE,
+    LISTED_PAIRS,
+    NUMBERS,
+    SETTLING,
+)
 from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
@@ -34,7 +43,7 @@ if TYPE_CHECKING:
 
 FORMAT = "saltus trajectory"
 VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
-BOUNDS = ("max_iterations", "max_impacts", "max_impulses", "rest", "simultaneous")
+BOUNDS = ("max_iterations", "max_impacts", "max_halvings", "max_impulses", "rest", "simultaneous")
 OPTIONS = ("h", "collisions", *BOUNDS)
 
 Kind = TypeVar("Kind", bound=Recording)
@@ -105,6 +114,7 @@ def _write(run: Recording, file: h5py.File) -> None:
         file[name] = getattr(run, name)
     file["impulses"] = run.impulses
     file["settlings"] = run.settlings
+    file["fallbacks"] = run.fallbacks.astype([*FALLBACK.descr[:2], ("rung", "S16")])
     if run.recorded_contacts is not None:
         file["contacts"] = run.recorded_contacts
     # The law by name, so that other programs can read it.
@@ -142,13 +152,16 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
+    fallbacks = file["fallbacks"][()] if "fallbacks" in file else []
+    arrays["fallbacks"] = np.asarray(fallbacks).astype(FALLBACK)
     if "contacts" in file:
         arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
     certificates = tuple(file["certificates"].asstr()[()]) if "certificates" in file else ()
-    options = {name: file.attrs[name].item() for name in OPTIONS}
+    options = {name: file.attrs[name].item() for name in OPTIONS if name in file.attrs}
+    options.setdefault("max_halvings", 0)  # files of before have no such steps
     coordinates = tuple(file["coordinate_names"].asstr()[()])
     _refuse_angles(coordinates, file.attrs["version"], path)
     velocities = coordinates  # of files of version 1

@@ -13,9 +13,11 @@ from saltus._core import Impact, ImpactLaw, Model, ModelError, State, StepOption
 from saltus.records.tables import (
     ARRAYS,
     CONTACT,
+    FALLBACK,
     IMPACT,
     IMPULSE,
     NUMBERS,
+    RUNGS,
     SETTLING,
     Array,
     index_of,
@@ -46,6 +48,7 @@ class Recording:
     impacts: npt.NDArray[np.void]
     impulses: npt.NDArray[np.void]
     settlings: npt.NDArray[np.void]
+    fallbacks: npt.NDArray[np.void]
     certificates: tuple[str, ...]
     iterations: int
     residual: float
@@ -73,13 +76,16 @@ class Recording:
         for name in own.dtype.names or ():
             impulses[name] = own[name]
         settlings = core.settlings.astype(SETTLING)
+        fallbacks = np.array(
+            [(row["t"], row["tau"], RUNGS[row["rung"]]) for row in core.fallbacks], FALLBACK
+        )
         events = [impulses, settlings]
         contacts = None if core.contacts is None else core.contacts.astype(CONTACT)
         if contacts is not None:
             events.append(contacts)
         model = core.model
         pair_names = names_of_pairs(model, *events)
-        for array in (impacts, *events):
+        for array in (impacts, fallbacks, *events):
             array.flags.writeable = False
         return cls(
             model=model,
@@ -90,6 +96,7 @@ class Recording:
             impacts=impacts,
             impulses=impulses,
             settlings=settlings,
+            fallbacks=fallbacks,
             recorded_contacts=contacts,
             certificates=tuple(core.certificates),
             **{name: getattr(core, name) for name in (*ARRAYS, *NUMBERS)},
@@ -109,6 +116,7 @@ class Recording:
             f"{span}, h = {self.options.h:g} s, {law}, {len(self)} rows, {self.q.shape[1]} "
             f"coordinates, {len(self.impacts)} impacts with {len(self.impulses)} impulses, "
             f"energy error {self.energy_error:.1e}"
+            + (f", {len(self.fallbacks)} steps by shorter arcs" if len(self.fallbacks) else "")
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:

@@ -22,6 +22,8 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
+FALLBACK = np.dtype([("t", "f8"), ("tau", "f8"), ("rung", "U16")])
+RUNGS = ("halved",)  # names of C++'s Rung, in order
 ACTED: list[Any] = [
     ("pair", "i4"),
     ("lambda", "f8"),

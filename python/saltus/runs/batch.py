@@ -85,7 +85,7 @@ def simulate_batch(
         None: a progress bar on a terminal when the batch takes longer than 2 s; True, False:
         always, never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `order`, `certify`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`,
+        `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`, `max_impulses`, `rest`,
         `simultaneous`: as in `StepOptions`.
 
     Returns

@@ -36,6 +36,7 @@ class StepBounds(TypedDict, total=False):
     certify: bool
     max_iterations: int
     max_impacts: int
+    max_halvings: int
     max_impulses: int
     rest: float
     simultaneous: float
@@ -86,8 +87,8 @@ def simulate(
         None: a progress bar on a terminal when the run takes longer than 2 s; True, False: always,
         never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
-        `order`, `certify`, `max_iterations`, `max_impacts`, `max_impulses`, `rest`,
-        `simultaneous`: as in `StepOptions`.
+        `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`,
+        `max_impulses`, `rest`, `simultaneous`: as in `StepOptions`.
 
     Returns
     -------

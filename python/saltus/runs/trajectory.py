@@ -59,6 +59,9 @@ class Trajectory(Recording):
         recorded.
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
+    fallbacks : numpy.ndarray
+        Structured, empty as a rule: steps that could not be made as they should. "t" [s] where
+        each starts, "tau" [s] the longest arc that it was made of, "rung": "halved".
     certificates : tuple of str
         Of each impact whether its outcome is unique; empty unless `certify` asked for it.
     iterations : int

@@ -29,6 +29,7 @@ struct RunOutcome {
   std::vector<Impact> impacts;           ///< in order of time; `first` counts into `impulses`
   std::vector<ContactImpulse> impulses;  ///< of all its impacts
   std::vector<Settling> settlings;
+  std::vector<Fallback> fallbacks;
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
   /// As in Trajectory, if SimulateOptions::record_contacts; also of steps after the last row.
   std::optional<std::vector<RecordedContact>> contacts;

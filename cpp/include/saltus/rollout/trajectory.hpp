@@ -29,6 +29,7 @@ struct SALTUS_EXPORT Trajectory {
   std::vector<Impact> impacts;  ///< in order of time
   std::vector<ContactImpulse> impulses;
   std::vector<Settling> settlings;        ///< in order of time
+  std::vector<Fallback> fallbacks;        ///< of steps that had to be made otherwise
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
   /// All impulses, row by row: those of impacts, in order, then those that held pairs closed over
   /// the step. If SimulateOptions::record_contacts.

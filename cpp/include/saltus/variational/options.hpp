@@ -42,6 +42,9 @@ struct StepOptions {
   int max_iterations = 40;  ///< Newton iterations an arc; 2 to 4 are usual
   /// Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
   int max_impacts = 1000;
+  /// How often a step that cannot be made is tried anew with arcs of half the duration: by default
+  /// down to h / 64. 0: never. StepReport::fallbacks tells.
+  int max_halvings = 6;
   int max_impulses = 100000;  ///< impulses an impact; Galperin's 10^4-th part of pi needs 31415
 
   /// epsilon_u: |u| below this part of sqrt(2 E G) is rest, not approach; 1e-10 is far above the

@@ -40,6 +40,21 @@ struct Settling {
   int pair;  ///< index in model->pairs
 };
 
+/// How a step was made that could not be made as it should.
+enum class Rung {
+  halved,  ///< by arcs of half the step, a quarter, ...: all is as exact as with a smaller h
+};
+
+/// "halved"
+SALTUS_EXPORT std::string rung_name(Rung rung);
+
+/// A step that was made otherwise.
+struct Fallback {
+  double t;    ///< [s] where it starts
+  double tau;  ///< [s] the longest arc that it was made of
+  Rung rung;
+};
+
 /// Written by Stepper; valid until its next step.
 struct StepReport {
   int iterations = 0;   ///< Newton iterations, over all arcs tried
@@ -52,6 +67,7 @@ struct StepReport {
   std::vector<Impact> impacts;
   std::vector<ContactImpulse> impulses;  ///< of impacts
   std::vector<Settling> settlings;
+  std::vector<Fallback> fallbacks;        ///< none as a rule
   std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
   /// Of pairs that were held closed, each once: the sum of its impulses in arcs and between them,
   /// those of impacts left aside. Each acts where the contact is as its arc starts, or between

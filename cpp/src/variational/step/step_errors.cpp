@@ -30,7 +30,8 @@ std::string Stepper::Impl::fast_joint() const {
   return text.str();
 }
 
-void Stepper::Impl::fail(FlightOutcome outcome) const {
+void Stepper::Impl::fail(FlightOutcome outcome) {
+  halves_help = outcome != FlightOutcome::too_many_contacts;
   std::ostringstream text;
   const Arc& arc = flight.arc;
   switch (outcome) {
@@ -85,7 +86,8 @@ void Stepper::Impl::fail_impacts() const {
   throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
 }
 
-void Stepper::Impl::fail_energy(double gain) const {
+void Stepper::Impl::fail_energy(double gain) {
+  halves_help = true;
   std::ostringstream text;
   text << "the arc up to t = " << node.t << " s gains " << gain << " J of " << kinetic
        << " J, and contacts do no work: its equation was solved by another motion; held were ";

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "saltus/variational/report.hpp"
 #include "variational/terms/check_options.hpp"
 
 namespace saltus {
@@ -32,10 +33,13 @@ std::string law_name(ImpactLaw law) {
   return "unknown";
 }
 
+std::string rung_name(Rung rung) { return rung == Rung::halved ? "halved" : "unknown"; }
+
 void check_options(const StepOptions& o) {
   if (!(o.h > 0) || !std::isfinite(o.h)) fail("h", o.h, "positive and finite [s]");
   if (o.max_iterations < 1) fail("max_iterations", o.max_iterations, "at least 1");
   if (o.max_impacts < 1) fail("max_impacts", o.max_impacts, "at least 1");
+  if (o.max_halvings < 0 || o.max_halvings > 20) fail("max_halvings", o.max_halvings, "in [0, 20]");
   if (o.max_impulses < 1) fail("max_impulses", o.max_impulses, "at least 1");
   if (!(o.rest >= 0 && o.rest < 1)) fail("rest", o.rest, "in [0, 1)");
   if (!(o.simultaneous >= 0 && o.simultaneous < 1)) {
