@@ -43,7 +43,8 @@ certify : bool
 max_iterations : int
     Newton iterations an arc; 2 to 4 are usual.
 max_impacts : int
-    Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
+    Impacts a step; more is a body bouncing faster than h can follow. Also arcs without an impact,
+    of which 100 are the most.
 max_halvings : int
     How often a step that cannot be made is tried anew with arcs of half the duration: by default
     down to h / 64; 0: never. `StepReport.fallbacks` tells.

@@ -40,7 +40,8 @@ struct StepOptions {
   bool collisions = true;      ///< false: bodies pass through each other
 
   int max_iterations = 40;  ///< Newton iterations an arc; 2 to 4 are usual
-  /// Impacts a step, and arcs without one; more is a body bouncing faster than h can follow.
+  /// Impacts a step; more is a body bouncing faster than h can follow. Also arcs without an impact,
+  /// of which 100 are the most.
   int max_impacts = 1000;
   /// How often a step that cannot be made is tried anew with arcs of half the duration: by default
   /// down to h / 64. 0: never. StepReport::fallbacks tells.

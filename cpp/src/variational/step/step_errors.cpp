@@ -100,18 +100,27 @@ void Stepper::Impl::fail_energy(double gain) {
   throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
 }
 
-void Stepper::Impl::fail_arcs() const {
+void Stepper::Impl::fail_sinking(const Contact& contact) {
+  halves_help = true;
   std::ostringstream text;
-  text << "more than " << options.max_impacts
-       << " arcs without an impact in the step from t = " << last.t << " s, the last of "
-       << flight.arc.tau << " s at t = " << node.t << " s";
+  text << model.pair_name(node.pool.number(contact.pair)) << " overlap by " << -contact.phi
+       << " m where the arc up to t = " << node.t << " s ends; a smaller h helps, h = " << options.h
+       << " s";
+  throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
+}
+
+void Stepper::Impl::fail_arcs() {
+  halves_help = true;
+  std::ostringstream text;
+  text << report.arcs << " arcs but " << report.impacts.size()
+       << " impacts in the step from t = " << last.t << " s, the last arc of " << flight.arc.tau
+       << " s at t = " << node.t << " s";
   if (flight.closing >= 0) {
     text << "; sought last was when " << model.pair_name(node.pool.number(flight.closing))
          << " closes";
   }
-  text << "; a smaller h or a slightly other start may pass by, or a larger max_impacts if this is "
-          "meant";
-  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+  text << "; a smaller h or a slightly other start may pass by";
+  throw StepError(text.str(), node.t, flight.arc.residual, report.arcs);
 }
 
 }  // namespace saltus

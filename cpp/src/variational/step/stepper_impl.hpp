@@ -23,19 +23,21 @@ struct Stepper::Impl {
   }
 
   void step(State& state);
-  void step_once(State& state);
-  void start(const State& state);
+  void step_once(State& state, bool is_own);
+  void start(const State& state, bool is_own);
   void check_overlap() const;
   void fly_one_arc(double left);
   void arrive(double t);
   void check_energy();
+  void check_gaps();
   double conserved_energy();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome);
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
-  [[noreturn]] void fail_arcs() const;
+  [[noreturn]] void fail_arcs();
   [[noreturn]] void fail_energy(double gain);
+  [[noreturn]] void fail_sinking(const Contact& contact);
   std::string contact_list() const;
   std::string fast_joint() const;
 
@@ -46,9 +48,11 @@ struct Stepper::Impl {
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
-  double longest = 0;              // [s] no arc of this attempt may be longer
-  bool halves_help = false;        // what failed may not fail with shorter arcs
-  double kinetic = 0, energy = 0;  // [J] where the arc started, if contacts held it
+  double longest = 0;        // [s] no arc of this attempt may be longer
+  bool halves_help = false;  // what failed may not fail with shorter arcs
+  // where the arc started
+  double deepest = 0;              // [m] its lowest gap, or 0
+  double kinetic = 0, energy = 0;  // [J] if contacts held it
 };
 
 }  // namespace saltus
