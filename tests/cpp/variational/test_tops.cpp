@@ -205,7 +205,7 @@ TEST(FreeTop, TurnsOfAWholeTurnAnArcAreToldByName) {
   const Model model = top(Vec3(1, 1, 1));
   State state = spinning(model, Vec3(0, 0, 650));
   const State before = state;
-  Stepper stepper(model, {.h = 0.01});
+  Stepper stepper(model, {.h = 0.01, .max_halvings = 0});
   try {
     stepper.step(state);
     FAIL() << "turned by 6.5 rad in an arc";
@@ -216,6 +216,10 @@ TEST(FreeTop, TurnsOfAWholeTurnAnArcAreToldByName) {
   EXPECT_EQ(state, before);
   State fine = spinning(model, Vec3(0, 0, 600));  // 6 rad a step is less than a turn
   EXPECT_NO_THROW(stepper.step(fine));
+  Stepper in_halves(model, {.h = 0.01});
+  EXPECT_NO_THROW(in_halves.step(state));
+  ASSERT_EQ(in_halves.report().fallbacks.size(), 1u);
+  EXPECT_EQ(in_halves.report().fallbacks[0].tau, 0.005);
 }
 
 TEST(FreeTop, TumblesByMoreThanARadianAStep) {

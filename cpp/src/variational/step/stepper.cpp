@@ -27,6 +27,7 @@ constexpr int most_arcs_spent = 256;
 /// Touches (1e-10 of the shapes' size) that are an overlap: what a state written with 8 digits
 /// loses is none.
 constexpr double overlap_touches = 100;
+constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
 
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
@@ -183,14 +184,17 @@ void Stepper::Impl::fly_one_arc(double left) {
   energy = node_energy(*model, node);
 }
 
+bool Stepper::Impl::is_last_attempt() const {
+  return longest <= std::ldexp(options.h, -options.max_halvings);
+}
+
 /// Contacts do no work. An arc that they hold and that gains energy is another root of the arc's
 /// equation than the motion. Of 2062 arcs of fast chains the wrong roots had gained .86 of the
 /// kinetic energy and more, and less than 1 % of the right ones swung by .3. As long as shorter
 /// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
 void Stepper::Impl::check_energy() {
   if (flight.active == 0 || node.launch.pending) return;
-  const bool is_last = longest <= std::ldexp(options.h, -options.max_halvings);
-  const double most = is_last ? 0.3 : 0.02;
+  const double most = is_last_attempt() ? 0.3 : 0.02;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double slow = options.h * model->mass.gravity.norm() + node.most_touch / options.h;
   const double least = 0.5 * node.total_mass * slow * slow;
@@ -198,11 +202,13 @@ void Stepper::Impl::check_energy() {
   if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
 }
 
-/// No arc ends with bodies deeper in each other than it started.
+/// No arc ends with bodies deeper in each other than it started. Where parts come to face each
+/// other that overlap already no shorter arc helps: that is an error where anybody can see it.
 void Stepper::Impl::check_gaps() {
+  const double most = is_last_attempt() ? visible_touches : overlap_touches;
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
-    if (c.phi < deepest - overlap_touches * node.pool[c.pair].touch) fail_sinking(c);
+    if (c.phi < deepest - most * node.pool[c.pair].touch) fail_sinking(c);
   }
 }
 

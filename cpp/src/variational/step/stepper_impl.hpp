@@ -28,6 +28,7 @@ struct Stepper::Impl {
   void check_overlap() const;
   void fly_one_arc(double left);
   void arrive(double t);
+  bool is_last_attempt() const;
   void check_energy();
   void check_gaps();
   double conserved_energy();
