@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "random_contacts.hpp"
+#include "variational/law/friction_scratch.hpp"
 #include "variational/law/pile.hpp"
 
 namespace saltus {
@@ -72,6 +73,21 @@ TEST(Settle, WithFrictionUpToTwo) {
       EXPECT_LE(r.missed, 1e-7) << contacts << " " << trial;
       EXPECT_LE(r.gain, 1e-7);
     }
+  }
+}
+
+/// Errors name the contact that is farthest from the law, wherever it is in the list.
+TEST(Settle, TheMostLawlessIsNamed) {
+  std::mt19937 random(3);
+  for (int worst = 0; worst < 5; ++worst) {
+    const ContactsAtOnce c = random_contacts({5, 3, 0, 0.5, false}, random);
+    FrictionScratch x(true);
+    x.W = c.W;
+    x.u = c.u;
+    x.p.assign(5, Vec3::Zero());
+    settle_for_sure(x.W, x.pile, x.u, x.p);
+    x.u[static_cast<std::size_t>(worst)][0] -= 1;  // approaches, as if it had not been pushed
+    EXPECT_EQ(most_lawless(x), worst);
   }
 }
 

@@ -79,18 +79,6 @@ void add_change(const std::vector<Vec3>& before, Flight& f) {
   }
 }
 
-/// The contact that is farthest from the law, for the message.
-int most_lawless(const Flight& f) {
-  const FrictionScratch& x = f.slip.friction;
-  int most = 0;
-  double worst = 0;
-  for (int i = 0; i < static_cast<int>(x.W.own.size()); ++i) {
-    const double each = lawlessness_of(x.W, i, x.u[i], x.p[i]);
-    if (each > worst) worst = each, most = i;
-  }
-  return f.constraints[x.contact[most]].place;
-}
-
 /// Newton's method from flight.arc.v and the impulses of the holds.
 bool solve_rounds(const ModelData& model, const StepOptions& options, double tau, Node& node,
                   Flight& f) {
@@ -108,7 +96,7 @@ bool solve_rounds(const ModelData& model, const StepOptions& options, double tau
     if (f.arc.residual <= most_residual && is_solved && is_lawful(now, before, x.contact.size()))
       break;
     if (ends || !std::isfinite(now.residual) || !set_slip_blocks(model, node, f)) {
-      f.closing = most_lawless(f);
+      f.closing = f.constraints[x.contact[most_lawless(x)]].place;
       return false;
     }
     const Lawlessness law = lawlessness(x.W, x.u, x.p);

@@ -21,4 +21,14 @@ void FrictionScratch::reserve(std::size_t contacts) {
   pile.reserve(contacts);
 }
 
+int most_lawless(const FrictionScratch& x) {
+  int most = 0;
+  double worst = 0;
+  for (int i = 0; i < static_cast<int>(x.W.own.size()); ++i) {
+    const double each = lawlessness_of(x.W, i, x.u[i], x.p[i]);
+    if (each > worst) worst = each, most = i;
+  }
+  return most;
+}
+
 }  // namespace saltus

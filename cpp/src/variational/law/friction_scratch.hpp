@@ -30,4 +30,7 @@ struct FrictionScratch {
   int flight = 0;       ///< the number of the flight that leaves the node
 };
 
+/// Index in `contact` of the one that is farthest from Coulomb's law, for messages.
+int most_lawless(const FrictionScratch& x);
+
 }  // namespace saltus

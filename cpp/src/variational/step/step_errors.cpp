@@ -66,7 +66,10 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
 void Stepper::Impl::fail_jammed() {
   set_contact_matrix(*model, node);
   if (has_friction(node) && can_open(node)) {
-    flight.closing = node.contacts[0].pair;
+    const auto begin = node.contacts.begin(), end = begin + node.touching;
+    const auto fastest =
+        std::min_element(begin, end, [](const Contact& a, const Contact& b) { return a.u < b.u; });
+    flight.closing = fastest->pair;
     fail(FlightOutcome::friction_not_settled);
   }
   std::ostringstream text;

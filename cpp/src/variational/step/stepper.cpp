@@ -221,7 +221,7 @@ void Stepper::Impl::arrive(double t) {
     tell_closing(node, report);
     report.friction_residual = std::max(report.friction_residual, node.friction.residual);
     if (!(node.friction.residual <= large_residual)) {
-      flight.closing = node.contacts[node.friction.contact[0]].pair;
+      flight.closing = node.contacts[node.friction.contact[most_lawless(node.friction)]].pair;
       fail(FlightOutcome::friction_not_settled);
     }
   }
