@@ -26,7 +26,7 @@ def start(model: saltus.Model) -> dict[str, object]:
 def test_never_is_an_error_that_keeps_what_was_before():
     model = can()
     with pytest.raises(
-        saltus.StepError, match=r"gains .* J of .* J, and contacts do no work"
+        saltus.StepError, match=r"gains .* J to its kinetic .* J, and contacts do no work"
     ) as error:
         saltus.simulate(model, **start(model), duration=0.5, h=H, max_halvings=0)
     rows = error.value.trajectory

@@ -63,6 +63,18 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }
 
+/// The error of the step as a whole, and that shorter arcs were no help if they were tried.
+void Stepper::Impl::fail_at_last(const std::exception_ptr& first) const {
+  if (!(longest < options.h)) std::rethrow_exception(first);
+  try {
+    std::rethrow_exception(first);
+  } catch (const StepError& error) {
+    std::ostringstream text;
+    text << error.what() << "; arcs of " << longest << " s fail as well";
+    throw StepError(text.str(), error.t, error.residual, error.iterations);
+  }
+}
+
 void Stepper::Impl::fail_jammed() {
   set_contact_matrix(*model, node);
   if (has_friction(node) && can_open(node)) {
@@ -92,7 +104,7 @@ void Stepper::Impl::fail_impacts() const {
 void Stepper::Impl::fail_energy(double gain) {
   halves_help = true;
   std::ostringstream text;
-  text << "the arc up to t = " << node.t << " s gains " << gain << " J of " << kinetic
+  text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
        << " J, and contacts do no work: its equation was solved by another motion; held were ";
   std::vector<std::string> names;
   for (int i = 0; i < flight.active; ++i) {

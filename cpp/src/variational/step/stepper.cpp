@@ -3,6 +3,7 @@
 #include <cmath>
 #include <exception>
 #include <sstream>
+#include <utility>
 
 #include "variational/flight/arrival.hpp"
 #include "variational/flight/friction_arc.hpp"
@@ -65,27 +66,35 @@ void Stepper::step(State& state) { impl_->step(state); }
 
 void Stepper::forget() { impl_->last_is_valid = false; }
 
-// A step that cannot be made is tried again from its start, with shorter arcs.
+// A step that cannot be made is tried again from its start: if it was the guesses of the steps
+// before that led astray, without them; then with shorter arcs.
 void Stepper::Impl::step(State& state) {
   report.fallbacks.clear();
-  longest = options.h;
-  std::exception_ptr first;
-  int spent = 0;
+  const double t = state.t;
   const bool is_own = last_is_valid && state == last;  // where a step of ours ended
-  for (int halvings = 0; halvings <= options.max_halvings; ++halvings, longest /= 2) {
+  bool has_guesses = is_own;
+  std::exception_ptr first;
+  int arcs = 0, iterations = 0;
+  longest = options.h;
+  for (int halvings = 0;;) {
     halves_help = false;
     try {
-      const double t = state.t;
       step_once(state, is_own);
+      report.iterations += iterations;
       if (halvings > 0) report.fallbacks.push_back({t, longest, Rung::halved});
       return;
     } catch (const StepError&) {
       if (!first) first = std::current_exception();
-      spent += report.arcs;
-      if (!halves_help || spent > most_arcs_spent) break;
+      arcs += report.arcs;
+      iterations += report.iterations;
+      if (!halves_help || arcs > most_arcs_spent) break;
     }
+    if (std::exchange(has_guesses, false)) continue;
+    if (halvings == options.max_halvings) break;
+    ++halvings;
+    longest /= 2;
   }
-  std::rethrow_exception(first);
+  fail_at_last(first);
 }
 
 // Fly to the first impact, resolve it, go on for the time left.

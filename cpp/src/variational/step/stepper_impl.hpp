@@ -1,6 +1,7 @@
 // What a Stepper is made of, for stepper.cpp and step_errors.cpp.
 #pragma once
 
+#include <exception>
 #include <string>
 
 #include "saltus/variational/stepper.hpp"
@@ -34,6 +35,7 @@ struct Stepper::Impl {
   double conserved_energy();
   void finish();
   [[noreturn]] void fail(FlightOutcome outcome);
+  [[noreturn]] void fail_at_last(const std::exception_ptr& first) const;
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts() const;
   [[noreturn]] void fail_arcs();
