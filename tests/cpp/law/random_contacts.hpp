@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "saltus/variational/friction.hpp"
+#include "variational/law/contact_problem.hpp"
 
 namespace saltus {
 
@@ -33,26 +33,6 @@ inline void add_body_rows(const Mat3& axes, const Vec3& arm, double sign, Eigen:
     rows.row(k).head(3) += sign * axes.col(k).transpose();
     rows.row(k).tail(3) += sign * arm.cross(axes.col(k)).transpose();
   }
-}
-
-inline ContactBlocks blocks_of(const MatX& W) {
-  ContactBlocks out;
-  const auto m = W.rows() / 3;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    out.start.push_back(static_cast<int>(out.contact.size()));
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const Mat3 block = W.block<3, 3>(3 * j, 3 * i);
-      if (block.isZero(0)) continue;
-      out.contact.push_back(static_cast<int>(j));
-      out.block.push_back(block);
-    }
-    out.own.push_back(W.block<3, 3>(3 * i, 3 * i));
-    out.friction.push_back(0);
-    out.restitution.push_back(0);
-    out.rest.push_back(0);
-  }
-  out.start.push_back(static_cast<int>(out.contact.size()));
-  return out;
 }
 
 /// Bodies of six degrees each, about their middles; contacts between two, or one and the world.
@@ -84,7 +64,7 @@ inline ContactsAtOnce random_contacts(const RandomContacts& of, std::mt19937& ra
       add_body_rows(axes, random_unit(random), -1, out.R.block(3 * i, 6 * b, 3, 6));
     }
   }
-  out.W = blocks_of(out.R * out.inverse * out.R.transpose());
+  out.W = contact_blocks(out.R * out.inverse * out.R.transpose());
   for (double& mu : out.W.friction) mu = of.friction * unit(random);
   out.v = VecX::NullaryExpr(n, [&] { return 2 * unit(random) - 1; });
   const VecX u = out.R * out.v;

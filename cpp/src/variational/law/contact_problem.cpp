@@ -81,4 +81,22 @@ MatX dense_part(const ContactMatrix& G, const std::vector<int>& part) {
   return dense;
 }
 
+ContactBlocks contact_blocks(const MatX& W) {
+  ContactBlocks out;
+  const auto m = static_cast<std::size_t>(W.rows() / 3);
+  for (std::size_t i = 0; i < m; ++i) {
+    out.start.push_back(static_cast<int>(out.contact.size()));
+    for (std::size_t j = 0; j < m; ++j) {
+      const Mat3 block = W.block<3, 3>(3 * j, 3 * i);
+      if (block.isZero(0)) continue;
+      out.contact.push_back(static_cast<int>(j));
+      out.block.push_back(block);
+    }
+    out.own.push_back(W.block<3, 3>(3 * i, 3 * i));
+  }
+  out.start.push_back(static_cast<int>(out.contact.size()));
+  for (auto* each : {&out.friction, &out.restitution, &out.rest}) each->assign(m, 0.0);
+  return out;
+}
+
 }  // namespace saltus

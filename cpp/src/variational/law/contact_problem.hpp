@@ -3,7 +3,7 @@
 // With rows n_i = phi_q: columns = M^-1 N^T, G = N M^-1 N^T, u = N v (theory, section 6).
 #pragma once
 
-#include "saltus/variational/cascade.hpp"
+#include "saltus/variational/friction.hpp"
 
 namespace saltus {
 
@@ -25,5 +25,8 @@ ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref
 /// G of some contacts, dense.
 /// @param part indices, ascending
 MatX dense_part(const ContactMatrix& G, const std::vector<int>& part);
+
+/// W (3 m, 3 m) by contacts, without friction, restitution and rest.
+ContactBlocks contact_blocks(const MatX& W);
 
 }  // namespace saltus

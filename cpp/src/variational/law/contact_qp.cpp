@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "saltus/error.hpp"
+#include "variational/law/contact_problem.hpp"
 #include "variational/law/pile.hpp"
 
 namespace saltus {
@@ -38,28 +39,19 @@ Scaled scaled(const Eigen::Ref<const MatX>& G) {
 /// rest. Where G is 0 nothing can be done.
 VecX solve_nonnegative(const Mat& G, const VecX& u) {
   constexpr double nothing = 1e-20;
-  ContactBlocks W;
-  std::vector<Vec3> rate, impulse;
   Indices some;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     if (G(i, i) > nothing) some.push_back(i);
   }
-  const auto block = [](double value) -> Mat3 { return value * Vec3::UnitX().asDiagonal(); };
-  for (const Eigen::Index by : some) {
-    W.start.push_back(static_cast<int>(W.contact.size()));
-    for (std::size_t at = 0; at < some.size(); ++at) {
-      if (G(some[at], by) == 0) continue;
-      W.contact.push_back(static_cast<int>(at));
-      W.block.push_back(block(G(some[at], by)));
-    }
-    W.own.push_back(block(G(by, by)));
-    W.friction.push_back(0);
-    rate.emplace_back(u[by], 0, 0);
-    impulse.emplace_back(Vec3::Zero());
+  const auto m = static_cast<Eigen::Index>(some.size());
+  MatX W = MatX::Zero(3 * m, 3 * m);
+  std::vector<Vec3> rate, impulse(some.size(), Vec3::Zero());
+  for (Eigen::Index i = 0; i < m; ++i) {
+    for (Eigen::Index j = 0; j < m; ++j) W(3 * i, 3 * j) = G(some[i], some[j]);
+    rate.emplace_back(u[some[i]], 0, 0);
   }
-  W.start.push_back(static_cast<int>(W.contact.size()));
   PileScratch scratch;
-  settle_pile(W, scratch, rate, impulse);
+  settle_pile(contact_blocks(W), scratch, rate, impulse);
   VecX lambda = VecX::Zero(u.size());
   for (std::size_t i = 0; i < some.size(); ++i) lambda[some[i]] = std::max(impulse[i][0], 0.0);
   return lambda;

@@ -34,22 +34,10 @@ void feel(const ContactBlocks& W, int contact, const Vec3& p, std::vector<Vec3>&
 }
 
 ContactBlocks blocks_of(const MatX& W, const VecX& rest, const VecRef& e, const VecRef& mu) {
-  ContactBlocks out;
-  const auto m = static_cast<int>(rest.size());
-  for (int i = 0; i < m; ++i) {
-    out.start.push_back(static_cast<int>(out.contact.size()));
-    for (int j = 0; j < m; ++j) {
-      const Mat3 block = W.block<3, 3>(3 * j, 3 * i);
-      if (block.isZero(0)) continue;
-      out.contact.push_back(j);
-      out.block.push_back(block);
-    }
-    out.own.push_back(W.block<3, 3>(3 * i, 3 * i));
-    out.friction.push_back(mu[i]);
-    out.restitution.push_back(e[i]);
-    out.rest.push_back(rest[i]);
-  }
-  out.start.push_back(static_cast<int>(out.contact.size()));
+  ContactBlocks out = contact_blocks(W);
+  out.friction.assign(mu.begin(), mu.end());
+  out.restitution.assign(e.begin(), e.end());
+  out.rest.assign(rest.begin(), rest.end());
   return out;
 }
 
