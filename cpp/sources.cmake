@@ -94,24 +94,24 @@ set(SALTUS_SOURCES
   cpp/src/variational/uniqueness/outcomes.cpp
   cpp/src/variational/overlap/overlap.cpp
   cpp/src/variational/node/contact_vector.cpp
+  cpp/src/variational/node/delassus.cpp
   cpp/src/variational/node/contacts.cpp
   cpp/src/variational/node/node.cpp
-  cpp/src/variational/node/node_friction.cpp
   cpp/src/variational/node/pair_pool.cpp
   cpp/src/variational/arc/arc.cpp
-  cpp/src/variational/arc/arc_constraints.cpp
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
+  cpp/src/variational/arc/launch_line.cpp
   cpp/src/variational/impact/certify.cpp
   cpp/src/variational/impact/custom_law.cpp
   cpp/src/variational/impact/impact.cpp
-  cpp/src/variational/flight/arrival.cpp
+  cpp/src/variational/flight/finish.cpp
   cpp/src/variational/flight/flight.cpp
-  cpp/src/variational/flight/friction_arc.cpp
-  cpp/src/variational/flight/holds.cpp
+  cpp/src/variational/flight/held_arc.cpp
   cpp/src/variational/flight/impact_time.cpp
   cpp/src/variational/flight/launch.cpp
-  cpp/src/variational/flight/slip_blocks.cpp
+  cpp/src/variational/flight/row_blocks.cpp
+  cpp/src/variational/flight/rows.cpp
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/stepper.cpp

@@ -87,7 +87,7 @@ TEST(Settle, TheMostLawlessIsNamed) {
     x.p.assign(5, Vec3::Zero());
     settle_for_sure(x.W, x.pile, x.u, x.p);
     x.u[static_cast<std::size_t>(worst)][0] = -1;  // approaches, as if it had not been pushed
-    EXPECT_EQ(most_lawless(x), worst);
+    EXPECT_EQ(most_lawless(x.W, x.u, x.p), worst);
   }
 }
 

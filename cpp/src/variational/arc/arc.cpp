@@ -5,17 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "variational/arc/arc_constraints.hpp"
-
 namespace saltus {
 namespace {
-
-bool wants_energy(const ArcProblem& a) {
-  const auto& c = a.constraints;
-  return std::any_of(c.begin(), c.end(), [](const ArcConstraint& each) {
-    return each.kind == ArcConstraint::Kind::launch;
-  });
-}
 
 /// Adds c kappa to L. @return false where M is singular
 bool compensate(const ModelData& model, const ArcProblem& a, ArcScratch& s, bool keep_scale) {
@@ -75,15 +66,14 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   }
   evaluate(model, a, v, s);
   if (!keep_scale) set_scale(model, a.tau, s);
-  const bool compensated = a.whole > 0 && (a.tau < a.whole || wants_energy(a));
+  const bool compensated = a.whole > 0 && (a.tau < a.whole || a.launch != nullptr);
   if (compensated && !compensate(model, a, s, keep_scale)) {
     return std::numeric_limits<double>::infinity();
   }
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
-  for (const ArcConstraint& c : a.constraints) {
-    s.r += c.lambda * c.n;
-    s.scale +=
-        std::abs(c.lambda) * c.n.cwiseAbs();  // four legs' torques cancel, not their rounding
+  if (a.launch != nullptr) {
+    s.r += a.launch->lambda * a.launch->n;
+    s.scale += std::abs(a.launch->lambda) * a.launch->n.cwiseAbs();
   }
   if (!s.r.allFinite()) return std::numeric_limits<double>::infinity();
   if (s.r.size() == 0) return 0;
@@ -106,11 +96,11 @@ namespace {
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
                 bool keep_scale = false) {
   const double size = momentum_residual(model, a, v, s, keep_scale);
-  return std::max(size, constraint_residual(model, a, v, s));
+  return std::max(size, line_residual(model, a, v, s));
 }
 
 /// One Newton step from arc.v with backtracking; returns the new residual, infinity where J is
-/// singular. The lambdas of the constraints move with v.
+/// singular. The launch's lambda moves with v.
 double newton_step(const ModelData& model, const ArcProblem& a, double before, Arc& arc,
                    ArcScratch& s) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -118,13 +108,13 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   if (!factorize(model.tree, model.packed, s.w, a.tau, s.J)) return infinity;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
-  add_constraints(model, a, arc.v, s);
+  if (a.launch != nullptr) take_out_line(model, a, arc.v, s);
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
   // v has changed by a part of `before`, and so have the terms: a scale is known well enough.
-  // Forces of constraints may have come from nothing.
+  // The launch's impulse may have come from nothing.
   constexpr double little = 1e-3;
-  const bool keep_scale = before < little && a.constraints.empty();
+  const bool keep_scale = before < little && a.launch == nullptr;
   double after = residual(model, a, arc.v, s, keep_scale);
   // Newton's own direction shortens until the residual falls; 2^-12 of a step is no direction
   for (int k = 0; k < 12 && !(after < before) && before > 1e-10; ++k) {
@@ -211,7 +201,7 @@ void finish_arc(const ModelData& model, const ArcProblem& a, Arc& arc, const Arc
   arc.q_start = a.q;
   integrate(model.tree, a.q, a.tau, arc.v, arc.q_end);
   arc.p_end = a.p + a.tau * s.L_q;
-  for (const ArcConstraint& c : a.constraints) arc.p_end += c.lambda * c.n;
+  if (a.launch != nullptr) arc.p_end += a.launch->lambda * a.launch->n;
 }
 
 double arc_energy(const ModelData& model, const ArcProblem& a, const Arc& arc, ArcScratch& s) {

@@ -11,9 +11,8 @@
 // For balls L_v and L_q are the L_v' and L_q' of packed.hpp. A ball may turn by less than 2 pi in
 // an arc: the equation has a pole there, and farther than that its residual counts as infinite.
 //
-// Each constraint adds an unknown lambda_i along n_i and an equation c_i(v) = 0:
-//   hold    phi(q (+) tau v) = target     a sustained contact; n = phi_q at the arc's start
-//   launch  E_d = target                the paper's (11c) after an impact along n
+// After an impact the arc may have a line more, of one impulse lambda and one equation:
+// launch_line.hpp. What contacts push is part of p: held_arc.hpp.
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
 // (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
@@ -28,41 +27,20 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "saltus/collision/contact.hpp"
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
-#include "variational/law/coulomb.hpp"
-#include "variational/law/small_system.hpp"
+#include "variational/arc/launch_line.hpp"
 
 namespace saltus {
-
-struct ArcConstraint {
-  enum class Kind { hold, launch };
-  Kind kind = Kind::hold;
-  int place = -1;              ///< of the pair in the stepper's pool (hold)
-  const Pair* pair = nullptr;  ///< likewise
-  bool in_face = false;        ///< the corner is held in a plane: `face` is the pair
-  Pair face;
-  double target = 0;  ///< [m] or [J]
-  double lambda = 0;  ///< [N s] guess in, solution out
-  VecX n;             ///< (n_v) direction of the force
-  VecX row, column;   ///< (n_v) scratch: dc/dv and J^-1 n
-  // where there is friction
-  int axis = 0;                    ///< of the tangents
-  Vec2 tangential = Vec2::Zero();  ///< [N s] friction, along them at the arc's start
-
-  const Pair& watched() const { return in_face ? face : *pair; }
-};
 
 struct ArcProblem {
   const VecX& q;
   const VecX& p;
   double tau;
-  std::span<ArcConstraint> constraints;
+  LaunchLine* launch = nullptr;  ///< none
   double whole = 0;  ///< [s] the step h that the arc is a part of, under `compensated`; else 0
 };
 
@@ -124,7 +102,7 @@ inline void set_second_partials(const ModelData& model, ArcScratch& s) {
   s.has_second = true;
 }
 
-/// What solve_arc is made of, for closing_arc.cpp and slip_blocks.cpp.
+/// What solve_arc is made of, for closing_arc.cpp and row_blocks.cpp.
 ///
 /// Writes w, L_v, L_q, scale and the negative residual r of the momentum equation at v; returns its
 /// scaled size, infinity where it is not a number.
@@ -141,7 +119,7 @@ void finish_arc(const ModelData& model, const ArcProblem& problem, Arc& arc, con
 /// E_d [J] of an arc just solved.
 double arc_energy(const ModelData& model, const ArcProblem& problem, const Arc& arc, ArcScratch& s);
 
-/// dv/dtau of an arc, constraints left aside: v' = -J^-1 dp_start/dtau. Needs the factors of J in
+/// dv/dtau of an arc, what holds it left aside: v' = -J^-1 dp_start/dtau. Needs the factors of J in
 /// s. Result in `rate` (n_v).
 void set_arc_rate(const ModelData& model, double tau, ArcScratch& s, VecX& rate);
 

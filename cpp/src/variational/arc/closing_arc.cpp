@@ -43,7 +43,7 @@ bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
   const double touch = gap.pair.touch;
   double before = std::numeric_limits<double>::infinity(), phi_before = before;
   for (arc.iterations = 0; arc.iterations <= most_iterations; ++arc.iterations) {
-    const ArcProblem a{q, p, arc.tau, {}, whole_step(options)};
+    const ArcProblem a{q, p, arc.tau, nullptr, whole_step(options)};
     arc.residual = momentum_residual(model, a, arc.v, s);
     if (!std::isfinite(arc.residual)) return false;
     const double phi = gap_at_end(model, a, arc.v, gap.pair, s, gap.n);

@@ -24,7 +24,7 @@ struct ClosingGap {
   VecX& rate;      ///< (n_q) written: v'
 };
 
-/// Newton from arc.v and arc.tau, without constraints.
+/// Newton from arc.v and arc.tau of an arc that nothing holds.
 /// @return false where it leaves (0, longest], does not converge in a few iterations, or the gap
 /// does not close: the guarded search of impact_time.cpp takes over from the old guess.
 bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,

@@ -3,8 +3,6 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
-#include "variational/flight/friction_arc.hpp"
-#include "variational/flight/holds.hpp"
 #include "variational/flight/impact_time.hpp"
 #include "variational/flight/launch.hpp"
 
@@ -16,8 +14,6 @@ void fit(int pairs, Flight& f) {
   if (static_cast<int>(f.passed.size()) >= pairs) return;
   f.passed.resize(static_cast<std::size_t>(pairs), 0);
   f.passes.resize(static_cast<std::size_t>(pairs), 0);
-  f.flips.resize(static_cast<std::size_t>(pairs), 0);
-  f.level.resize(static_cast<std::size_t>(pairs), 0);
 }
 
 bool is_clear_on_chord(const ModelData& model, const Pair& solid, const Node& node) {
@@ -31,7 +27,7 @@ struct FirstHit {
 };
 
 bool is_watched(const Node& node, const Flight& f, int pair) {
-  if (f.passed[pair] || node.held[pair] || std::isinf(node.sunk[pair])) return false;
+  if (f.passed[pair] || std::isinf(node.sunk[pair])) return false;
   const int contact = node.contact_of[pair];
   return contact < 0 || node.contacts[contact].motion != Contact::Motion::rests;
 }
@@ -78,56 +74,42 @@ bool guess_from_momenta(const ModelData& model, Node& node, Flight& f) {
 /// from the velocity at the node, last from M^-1 p there.
 bool solve_first_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
                      Flight& f) {
+  const bool is_free = f.rows.active.empty();
   // From where bodies turn by a radian an arc, its velocity is no smooth function of those before
-  if (fastest_turn(model.tree, node.v, left).angle > 1 && !needs_friction_arc(node)) {
+  if (fastest_turn(model.tree, node.v, left).angle > 1 && is_free) {
     if (guess_from_momenta(model, node, f) && solve_flight_arc(model, options, left, node, f)) {
       return true;
     }
   }
   if (f.history.extrapolate(node.t + left / 2, f.arc.v)) {
     if (solve_flight_arc(model, options, left, node, f)) return true;
-    forget_impulses(f);
+    forget_impulses(f.rows);
   }
   f.arc.v = node.v;
   if (f.has_rate) {  // of the arc that ended here at an impact: its acceleration goes on, nearly
     f.arc.v += left * f.rate;
     if (solve_flight_arc(model, options, left, node, f)) return true;
-    forget_impulses(f);
+    forget_impulses(f.rows);
     f.arc.v = node.v;
   }
   if (solve_flight_arc(model, options, left, node, f)) return true;
-  return !needs_friction_arc(node) && guess_from_momenta(model, node, f) &&
+  return is_free && guess_from_momenta(model, node, f) &&
          solve_flight_arc(model, options, left, node, f);
 }
 
-/// An arc of no duration, where something at the node has to be resolved first.
-FlightOutcome arrive_at_once(const ModelData& model, const StepOptions& options, Node& node,
-                             Flight& f) {
-  f.active = 0;
-  f.arc.v = node.v;
-  return solve_flight_arc(model, options, 0, node, f) ? FlightOutcome::arrived
-                                                      : FlightOutcome::not_converged;
+FlightOutcome no_arc(const Flight& f) {
+  return f.rows.active.empty() ? FlightOutcome::not_converged : FlightOutcome::friction_not_settled;
 }
 
-FlightOutcome no_arc(const Node& node) {
-  return needs_friction_arc(node) ? FlightOutcome::friction_not_settled
-                                  : FlightOutcome::not_converged;
-}
-
-/// Holds what was held, and solves the arc over the whole time left.
+/// Rows of what rests, and the arc over the whole time left.
 FlightOutcome begin(const ModelData& model, const StepOptions& options, double left, Node& node,
                     Flight& f) {
   fit(node.pool.size(), f);
   std::fill(f.passed.begin(), f.passed.end(), 0);
   std::fill(f.passes.begin(), f.passes.end(), 0);
-  std::fill(f.flips.begin(), f.flips.end(), 0);
-  std::fill(f.level.begin(), f.level.end(), 0);
-  f.active = 0;
-  f.slip.residual = 0;
-  if (node.friction.any) make_room(model, node, f);
-  if (left > 0 && !start_holds(model, node, f)) return FlightOutcome::too_many_contacts;
-  if (node.friction.any) recall_impulses(left, node, f);
-  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived : no_arc(node);
+  f.is_launched = false;
+  make_rows(model, left, node, f.rows);
+  return solve_first_arc(model, options, left, node, f) ? FlightOutcome::arrived : no_arc(f);
 }
 
 /// No impact of the pair is to be found on this arc.
@@ -144,18 +126,6 @@ void watch_again(Flight& f) {
   }
 }
 
-/// Complementarity of what is held, which friction has in its arcs; `settled` is false where the
-/// arc has to be solved again.
-FlightOutcome update_contacts(const ModelData& model, Node& node, Flight& f, bool& settled) {
-  if (needs_friction_arc(node)) {
-    settled = !level_rods(model, node, f);
-    return FlightOutcome::arrived;
-  }
-  const Holds holds = update_holds(model, node, f);
-  settled = holds == Holds::unchanged;
-  return holds == Holds::too_many ? FlightOutcome::too_many_contacts : FlightOutcome::arrived;
-}
-
 /// An end of a rod whose axis is held on an edge, where the edge comes to that end: the two touch
 /// in the same point, and that of the end only grazes.
 bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight& f) {
@@ -165,29 +135,17 @@ bool grazes_with_axis(const ModelData& model, int end, const Node& node, Flight&
   place_end(model, f.arc.q_end, f.scratch);
   const Vec3 p_WA = pair_gap_at_end(model, pair, f.scratch).p_WA;
   constexpr double same_point = 1e-3;  // of the radius
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold || node.pool.solid(c.place) != node.pool.solid(end) ||
-        c.pair->kind != PairKind::crossing) {
+  for (const int i : f.rows.active) {
+    const Row& row = f.rows.row[i];
+    if (node.pool.solid(row.place) != node.pool.solid(end) ||
+        row.pair->kind != PairKind::crossing) {
       continue;
     }
-    const Gap g = pair_gap_at_end(model, *c.pair, f.scratch);
+    const Gap g = pair_gap_at_end(model, *row.pair, f.scratch);
     const double apart = std::min((g.p_WA - p_WA).norm(), (g.p_WB - p_WA).norm());
     if (apart < same_point * ball->radius) return true;
   }
   return false;
-}
-
-/// Ends the bouncing of a pair. With friction it is the law of the arc that takes the last hop
-/// away, together with all that rests: in a pile one after the other would make each other hop.
-void settle_hop(const ModelData& model, int contact, Node& node) {
-  Contact& c = node.contacts[contact];
-  if (c.friction > 0) {
-    c.motion = Contact::Motion::rests;
-    return;
-  }
-  come_to_rest(model, contact, node);
-  node.held[c.pair] = 0;  // until this arc presses it, or it would fall through
 }
 
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
@@ -207,12 +165,13 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
     return found;
   }
   if (found == ImpactTime::missed) let_pass(hit.pair, f);
-  if (found == ImpactTime::at_rest) {
-    node.contacts[node.contact_of[hit.pair]].motion = Contact::Motion::rests;
-  }
   if (found == ImpactTime::settles) {
     f.settlings.push_back({node.t + f.settling_time, hit.pair});
-    settle_hop(model, node.contact_of[hit.pair], node);
+  }
+  // The law of the arc takes the last hop away, together with all that rests: in a pile one after
+  // the other would make each other hop.
+  if (found == ImpactTime::settles || found == ImpactTime::at_rest) {
+    rest_from_now(model, node.contact_of[hit.pair], node, f.rows);
   }
   f.arc.v = f.start_v;
   return found;
@@ -222,17 +181,16 @@ ImpactTime shorten(const ModelData& model, const StepOptions& options, const Fir
 
 Flight::Flight(const ModelData& model, const StepOptions& options, bool with_friction)
     : history(model.tree.n_v),
+      rows(model, with_friction),
       scratch(model, options.law),
-      broad(model.tree, model.shapes, model.pairs),
-      constraints(most_constraints + 1),
-      slip(with_friction) {
+      broad(model.tree, model.shapes, model.pairs) {
   if (options.law == ImpactLaw::shadow_energy) meter.emplace(model);
   settlings.reserve(64);
   const int n_v = model.tree.n_v;
   for (VecX* x : {&arc.q_start, &arc.q_end}) x->setZero(model.tree.n_q);
   for (VecX* x : {&arc.v, &arc.p_end, &rate, &start_v, &before_v, &n}) x->setZero(n_v);
-  for (VecX* x : {&slip.p, &slip.size}) x->setZero(with_friction ? n_v : 0);
-  for (ArcConstraint& c : constraints) c = fresh_constraint(model);
+  for (VecX* x : {&launch.n, &launch.row, &launch.column}) x->setZero(n_v);
+  closings.reserve(64);
 }
 
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
@@ -241,35 +199,32 @@ FlightOutcome fly(const ModelData& model, const StepOptions& options, double lef
   f.has_rate = false;
   double tau = left;
   bool solved = true;
-  // every turn holds or releases a pair, lets one pass, or shortens the arc to an earlier impact
-  const int most_turns = (node.friction.any ? 100 : 10) + 4 * node.pool.size();
+  // every turn presses a row, lets a pair pass, or shortens the arc to an earlier impact
+  const int most_turns = 100 + 4 * node.pool.size();
   for (int turn = 0; turn < most_turns && outcome == FlightOutcome::arrived; ++turn) {
     ImpactTime found = ImpactTime::not_converged;
     if (solved || solve_flight_arc(model, options, tau, node, f)) {
       if (node.launch.pending) fallback = !launch(model, options, tau, node, f);
-      bool settled = true;
-      outcome = update_contacts(model, node, f, settled);
       solved = false;
-      if (!settled) watch_again(f);
-      if (!settled || outcome != FlightOutcome::arrived) continue;
+      if (press_rows(model, f.arc.q_end, node, f.rows, f.scratch)) {
+        watch_again(f);
+        continue;
+      }
       const FirstHit hit = first_hit(model, node, f);
       if (hit.pair < 0) {
-        remember_impulses(node, f);
+        remember_impulses(f.rows);
         return FlightOutcome::arrived;
       }
       found = shorten(model, options, hit, tau, node, f);
-    } else if (level_held_ends(model, node, f)) {
+    } else if (level_held_ends(model, node, f.rows)) {
       f.arc.v = node.v;
       continue;
     }
     if (found == ImpactTime::not_located) return FlightOutcome::impact_not_located;
-    if (found == ImpactTime::settles && impact_pending(node)) {
-      return arrive_at_once(model, options, node, f);
-    }
     solved = found == ImpactTime::found;
     if (solved) tau = f.arc.tau;
     if (found != ImpactTime::not_converged) continue;
-    if (!drop_launch(node, f)) return no_arc(node);
+    if (!drop_launch(node, f)) return no_arc(f);
     fallback = true;
     tau = left;
   }

@@ -16,26 +16,9 @@
 #include "variational/arc/arc.hpp"
 #include "variational/arc/energy_meter.hpp"
 #include "variational/arc/guess.hpp"
-#include "variational/node/node.hpp"
+#include "variational/flight/rows.hpp"
 
 namespace saltus {
-
-/// Rows T of a hold in the middle of the arc, and J^-1 of those at its start.
-struct SlipRows {
-  VecX t0, t1, column0, column1;  ///< (n_v)
-};
-
-/// Scratch of friction_arc.cpp; empty without friction.
-struct SlipScratch {
-  explicit SlipScratch(bool with_friction) : friction(with_friction) {}
-  FrictionScratch friction;   ///< of the holds; `contact` are their constraints
-  std::vector<SlipRows> row;  ///< of the holds
-  std::vector<Vec3> before;   ///< impulses
-  double tau = 0;             ///< [s] the arc that the impulses of the holds are over
-  double residual = 0;        ///< of Coulomb's law, in the arc just solved
-  VecX p;                     ///< (n_v) the node's with all impulses, written by set_slip_rates
-  VecX size;                  ///< (n_v) of all that is summed up in it, likewise
-};
 
 struct Flight {
   Flight(const ModelData& model, const StepOptions& options, bool with_friction);
@@ -47,35 +30,31 @@ struct Flight {
   double settling_time = 0;  ///< [s] from the node, of the pair that settles
   bool has_rate = false;     ///< `rate` is v' of the arc, which ends where a gap closes
 
-  std::vector<Settling> settlings;  ///< appended to; `pair` is a place in the pool
+  std::vector<Settling> settlings;       ///< appended to; `pair` is a place in the pool
+  std::vector<ContactImpulse> closings;  ///< of the half kick at the end of the arc before
+  Rows rows;
+  LaunchLine launch;         ///< of the arc, if
+  bool is_launched = false;  ///< it has one
 
   // scratch
   ArcScratch scratch;
   BroadPhase broad;
-  /// A pool, of most_constraints + 1, or with friction as many as contacts ask for; `active` are
-  /// used.
-  std::vector<ArcConstraint> constraints;
-  int active = 0;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   VecX rate, start_v, before_v, n;
   std::vector<char> passed;  ///< (pairs) no impact to be found, as long as contacts hold as now
   std::vector<char> passes;  ///< (pairs) how often that was so in this flight
-  std::vector<char> flips;   ///< (pairs) how often held and released in this flight
-  std::vector<char> level;   ///< (pairs) end of a rod that is held in the plane of a face
-  SlipScratch slip;
 };
 
 enum class FlightOutcome {
   arrived,
   not_converged,
-  too_many_contacts,
   no_progress,
   impact_not_located,    ///< of the pair flight.closing
   friction_not_settled,  ///< likewise
 };
 
-/// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown; pairs
-/// that it holds closed are marked in node.held.
+/// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown, and
+/// flight.rows what held contacts closed in it.
 /// @param fallback set where options.law could not be met and nodal_energy was used
 FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
                   Flight& flight, bool& fallback);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "variational/arc/closing_arc.hpp"
-#include "variational/flight/friction_arc.hpp"
+#include "variational/flight/held_arc.hpp"
 
 namespace saltus {
 namespace {
@@ -49,7 +49,7 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
 /// Time and velocity at once; false leaves the flight's guess as it was.
 bool refine_at_once(const ModelData& model, const StepOptions& options, const Pair& pair,
                     double tau, double longest, Node& node, Flight& f) {
-  if (f.active > 0 || needs_friction_arc(node)) return false;
+  if (!f.rows.active.empty() || f.is_launched) return false;
   f.before_v = f.arc.v;
   f.arc.tau = tau;
   const ClosingGap gap{pair, longest, f.n, f.rate};
@@ -126,16 +126,19 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
 }  // namespace
 
 ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
-  const std::span constraints(f.constraints.data(), static_cast<std::size_t>(f.active));
-  return {node.q, node.p, tau, constraints, whole_step(options)};
+  return {node.q, node.p, tau, f.is_launched ? &f.launch : nullptr, whole_step(options)};
+}
+
+ArcProblem held_arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
+  return {node.q, f.rows.momentum, tau, f.is_launched ? &f.launch : nullptr, whole_step(options)};
 }
 
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau, Node& node,
                       Flight& f) {
+  const bool is_held = tau > 0 && !f.rows.active.empty();
   const bool converged =
-      tau > 0 && needs_friction_arc(node)
-          ? solve_friction_arc(model, options, tau, node, f)
-          : solve_arc(model, arc_problem(options, tau, node, f), options, f.arc, f.scratch);
+      is_held ? solve_held_arc(model, options, tau, node, f)
+              : solve_arc(model, arc_problem(options, tau, node, f), options, f.arc, f.scratch);
   f.iterations += f.arc.iterations;
   return converged;
 }
@@ -146,7 +149,7 @@ ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, 
   const Pair& pair = node.pool[place];
   const double tau = f.arc.tau;
   // most often the velocity of the shorter arc can be told from the arcs before
-  if (f.active == 0 && !needs_friction_arc(node) &&
+  if (f.rows.active.empty() && !f.is_launched &&
       f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
     if (refine_at_once(model, options, pair, s * tau, tau, node, f)) return ImpactTime::found;
     f.arc.v = f.start_v;

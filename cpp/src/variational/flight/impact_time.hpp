@@ -15,10 +15,13 @@ enum class ImpactTime {
   not_located,    ///< the root was not found in the bounded number of arcs
 };
 
+/// The arc of duration tau from the node: of what nothing holds, and with the impulses of the
+/// active rows in rows.momentum.
 ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& flight);
+ArcProblem held_arc_problem(const StepOptions& options, double tau, const Node& node,
+                            Flight& flight);
 
-/// Solves the arc of duration tau from the node: with the flight's active constraints, or where
-/// there is friction with all that rests (friction_arc.hpp).
+/// Solves the arc of duration tau from the node with the flight's active rows, and its launch.
 bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau, Node& node,
                       Flight& flight);
 

@@ -1,9 +1,9 @@
 #include "variational/flight/launch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "variational/flight/friction_arc.hpp"
 #include "variational/flight/impact_time.hpp"
 
 namespace saltus {
@@ -11,15 +11,24 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Something rests with friction.
+bool has_friction_rows(const Node& node, const Flight& f) {
+  return std::any_of(f.rows.active.begin(), f.rows.active.end(),
+                     [&](int i) { return node.contacts[f.rows.row[i].contact].friction > 0; });
+}
+
 bool match_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
                Flight& f) {
   const double energy = arc_energy(model, arc_problem(options, left, node, f), f.arc, f.scratch);
   const double mismatch = std::abs(energy - node.launch.energy);
-  if (node.launch.normal_energy <= mismatch || f.active == most_constraints) return false;
-  next_constraint(f, ArcConstraint::Kind::launch, -1, node.launch.energy).n = node.launch.n;
+  if (node.launch.normal_energy <= mismatch) return false;
+  f.launch.n = node.launch.n;
+  f.launch.energy = node.launch.energy;
+  f.launch.lambda = 0;
+  f.is_launched = true;
   f.start_v = f.arc.v;
   if (solve_flight_arc(model, options, left, node, f)) return true;
-  --f.active;  // no root after all: back to the nodal arc, which is its own guess
+  f.is_launched = false;  // no root after all: back to the nodal arc, which is its own guess
   f.arc.v = f.start_v;
   solve_flight_arc(model, options, left, node, f);
   return false;
@@ -55,7 +64,8 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
     return std::abs(x) <= 1e-15 * (f.meter->energy.kinetic + std::abs(f.meter->energy.potential));
   };
   if (is_rounding(start)) return true;
-  if (f.active > 0 || !(node.launch.normal_energy > std::abs(start)) || !(slope > 0)) return false;
+  if (!f.rows.active.empty() || !(node.launch.normal_energy > std::abs(start)) || !(slope > 0))
+    return false;
   for (int k = 0; k < most_iterations; ++k) {
     const double delta = -mismatch / slope;
     kick(model, delta, node, f);
@@ -75,37 +85,18 @@ bool match_shadow(const ModelData& model, const StepOptions& options, double lef
 
 }  // namespace
 
-ArcConstraint fresh_constraint(const ModelData& model) {
-  ArcConstraint c;
-  c.face.chain.reserve(static_cast<std::size_t>(model.tree.joints()));
-  for (VecX* x : {&c.n, &c.row, &c.column}) x->setZero(model.tree.n_v);
-  return c;
-}
-
-ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target) {
-  ArcConstraint& c = f.constraints[f.active++];
-  c.kind = kind;
-  c.place = place;
-  c.target = target;
-  c.lambda = 0;
-  return c;
-}
-
 bool drop_launch(const Node& node, Flight& f) {
-  for (int i = 0; i < f.active; ++i) {
-    if (f.constraints[i].kind != ArcConstraint::Kind::launch) continue;
-    std::swap(f.constraints[i], f.constraints[--f.active]);
-    for (int k = 0; k < f.active; ++k) f.constraints[k].lambda = 0;
-    f.arc.v = node.v;
-    return true;
-  }
-  return false;
+  if (!f.is_launched) return false;
+  f.is_launched = false;
+  forget_impulses(f.rows);
+  f.arc.v = node.v;
+  return true;
 }
 
 bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
             Flight& f) {
   node.launch.pending = false;
-  if (needs_friction_arc(node)) return false;  // its impulses are all that is sought
+  if (has_friction_rows(node, f)) return false;  // their impulses are all that is sought
   if (options.law == ImpactLaw::shadow_energy) return match_shadow(model, options, left, node, f);
   return match_arc(model, options, left, node, f);
 }

@@ -14,12 +14,6 @@
 
 namespace saltus {
 
-/// With memory for all that a constraint may come to hold.
-ArcConstraint fresh_constraint(const ModelData& model);
-
-/// A fresh constraint of the next arcs; needs room in the pool.
-ArcConstraint& next_constraint(Flight& f, ArcConstraint::Kind kind, int place, double target);
-
 /// Meets node.launch by the arc over `left`, which is solved without it in flight.arc.
 /// @return false where that was not possible; flight.arc is then as it was.
 bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,

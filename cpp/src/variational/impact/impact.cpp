@@ -58,7 +58,6 @@ void settle_velocities(const ModelData& model, const StepOptions& options, Node&
   node.v = node.p;  // without the rounding that the cascade's updates have gathered
   solve(model.tree, model.packed, node.M, node.v);
   for (int i = 0; i < node.touching; ++i) {
-    node.held[node.contacts[i].pair] = 0;
     classify(node, speed, options.rest, node.contacts[i]);
   }
 }

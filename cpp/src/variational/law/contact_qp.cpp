@@ -19,7 +19,7 @@ using Indices = std::vector<Eigen::Index>;
 
 constexpr double accuracy = 1e-10;        ///< of complementarity, what is promised
 constexpr double rounding = 1e-14;        ///< no better can be had
-constexpr double rank_tolerance = 1e-11;  ///< as in small_system.hpp
+constexpr double rank_tolerance = 1e-11;  ///< what redundant contacts leave is 1e-16 of W
 constexpr double no_interior = 1e-7;      ///< d^2 is known to a few 1e-16
 
 struct Scaled {

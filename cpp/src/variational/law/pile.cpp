@@ -208,6 +208,20 @@ Settled PileIsland::settle_scaled(double part) {
   return best;
 }
 
+void reserve(ContactBlocks& W, std::size_t contacts) {
+  W.start.reserve(contacts + 1);
+  W.contact.reserve(contacts * contacts);
+  W.block.reserve(contacts * contacts);
+  W.own.reserve(contacts);
+  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(contacts);
+}
+
+void clear(ContactBlocks& W) {
+  for (auto* each : {&W.start, &W.contact}) each->clear();
+  for (auto* each : {&W.block, &W.own}) each->clear();
+  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->clear();
+}
+
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
@@ -223,6 +237,16 @@ double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& 
   PileResidual one;
   one.add(scale * u, p / scale, W.friction[i], 0);
   return one.worst;
+}
+
+int most_lawless(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p) {
+  int most = 0;
+  double worst = 0;
+  for (int i = 0; i < W.size(); ++i) {
+    const double each = lawlessness_of(W, i, u[i], p[i]);
+    if (each > worst) worst = each, most = i;
+  }
+  return most;
 }
 
 Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,

@@ -31,6 +31,12 @@
 
 namespace saltus {
 
+/// Room for all blocks of so many contacts.
+void reserve(ContactBlocks& W, std::size_t contacts);
+
+/// No contacts.
+void clear(ContactBlocks& W);
+
 /// Room for settle_pile, which grows with the largest pile.
 struct PileScratch {
   std::vector<int> island, order, place;  ///< (m) union-find; contacts by island; in its island
@@ -61,6 +67,9 @@ struct Settled : Lawlessness {
 
 /// |p - P(p - u)| of one contact, scaled, and of rates u that p has been added to.
 double lawlessness_of(const ContactBlocks& W, int contact, const Vec3& u, const Vec3& p);
+
+/// The contact that is farthest from the law, for messages.
+int most_lawless(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p);
 
 /// Of all contacts.
 Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,

@@ -63,26 +63,23 @@ void add_if_touching(const ModelData& model, const StepOptions& options, double 
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(model.tree, node.kin, pair, g)) return note_silent(model, near, index, g, node);
   if (g.phi > near) return;
-  write_contact(model, options, speed, index, pair, g, node);
-  Contact& c = node.contacts[node.contact_of[index]];
+  Contact& c = next_in_pool(node);
+  write_contact(model, options, speed, index, pair, g, node, c);
   if (c.motion == Contact::Motion::approaches && !pair.inward.empty()) {
     const Vec3 motion = motion_of_point(model, pair, contact_point(g), node, c.column);
     const Gap other = pair_gap(model.tree, node.kin, pair, motion);
-    write_contact(model, options, speed, index, pair, other, node);
+    write_contact(model, options, speed, index, pair, other, node, c);
   }
-  if (g.phi > pair.touch && !(c.u < 0 && g.phi <= -c.u * soon)) drop_last_contact(node);
+  if (g.phi <= pair.touch || (c.u < 0 && g.phi <= -c.u * soon)) {
+    node.contact_of[index] = node.touching++;
+  }
 }
 
 }  // namespace
 
 void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
-                   const Pair& as, const Gap& g, Node& node) {
+                   const Pair& as, const Gap& g, Node& node, Contact& c) {
   const Pair& pair = node.pool[place];
-  if (node.contact_of[place] < 0) {
-    next_in_pool(node);
-    node.contact_of[place] = node.touching++;
-  }
-  Contact& c = node.contacts[node.contact_of[place]];
   add_gap_gradient(model.tree, node.kin, as, g, node.dense);
   shape_row(model, node.trees, as, c.n);
   take_from(node.trees, node.dense, c.n);
@@ -98,11 +95,10 @@ void write_contact(const ModelData& model, const StepOptions& options, double sp
   if (c.friction > 0) set_tangents(model, g, as, node, c);
 }
 
-void drop_last_contact(Node& node) { node.contact_of[node.contacts[--node.touching].pair] = -1; }
-
 bool set_velocity_at_node(const ModelData& model, Node& node) {
   mass_pass(model.packed, node.w);
   if (!factorize(model.tree, model.packed, node.w, 0, node.M)) return false;
+  node.has_factors = true;
   node.v = node.p;
   solve(model.tree, model.packed, node.M, node.v);
   return node.v.allFinite();
@@ -145,9 +141,7 @@ int place_of(const ModelData& model, int number, Node& node) {
   const auto pairs = static_cast<std::size_t>(node.pool.size());
   if (node.contact_of.size() < pairs) {
     node.contact_of.resize(pairs, -1);
-    node.held.resize(pairs, 0);
     node.sunk.resize(pairs, 0);
-    if (node.friction.any) node.friction.memory.resize(pairs);
   }
   return place;
 }
@@ -156,22 +150,25 @@ void forget_pairs(Node& node) {
   reset_contacts(node);
   node.pool.clear();
   node.contact_of.assign(static_cast<std::size_t>(node.pool.size()), -1);
-  node.held.assign(node.contact_of.size(), 0);
   node.sunk.assign(node.contact_of.size(), 0);
-  if (node.friction.any) node.friction.memory.assign(node.contact_of.size(), {});
+}
+
+void place_node(const ModelData& model, Node& node) {
+  node.has_factors = false;
+  if (model.pairs.empty()) return;
+  set_coordinates(model.tree, model.packed, node.q, node.w);
+  place(model.packed, node.w);
+  copy_poses(model.tree, model.packed, node.w, node.kin);
 }
 
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node) {
   if (model.pairs.empty()) return true;
-  set_coordinates(model.tree, model.packed, node.q, node.w);
-  place(model.packed, node.w);
-  copy_poses(model.tree, model.packed, node.w, node.kin);
   node.dq = options.simultaneous * options.h * node.v;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, node.most_touch,
                   node.broad);
   reset_contacts(node);
   if (node.broad.candidates.empty()) return true;
-  if (!set_velocity_at_node(model, node)) return false;
+  if (!node.has_factors && !set_velocity_at_node(model, node)) return false;
   const double speed = typical_speed(model, options, node);
   const Pair* solid = nullptr;
   bool is_near = true;
@@ -183,7 +180,6 @@ bool find_contacts(const ModelData& model, const StepOptions& options, Node& nod
                 pair_gap(model.tree, node.kin, *solid).phi <= solid->touch + nearly(options, speed);
     }
     if (is_near) add_if_touching(model, options, speed, place, node);
-    if (node.contact_of[place] < 0) node.held[place] = 0;
   }
   return true;
 }

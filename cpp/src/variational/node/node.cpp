@@ -1,11 +1,8 @@
 #include "variational/node/node.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-
-#include "variational/law/small_system.hpp"
 
 namespace saltus {
 namespace {
@@ -58,25 +55,11 @@ void add_row(int i, Node& node) {
   }
 }
 
-void apply(Node& node, int contact, double lambda) {
-  add(node.trees, lambda, node.contacts[contact].n, node.p);
-  add(node.trees, lambda, node.contacts[contact].column, node.v);
-}
-
-void refresh_motions(Node& node) {
-  for (int i = 0; i < node.touching; ++i) {
-    Contact& c = node.contacts[i];
-    c.u = dot(node.trees, c.n, node.v);
-    c.motion = motion_of(c.u, c.epsilon_u);
-  }
-}
-
 }  // namespace
 
 Node::Node(const ModelData& model)
     : pool(model),
       contact_of(static_cast<std::size_t>(pool.size()), -1),
-      held(contact_of.size(), 0),
       sunk(contact_of.size(), 0),
       friction(have_friction(model.materials)),
       w(model.packed),
@@ -99,13 +82,11 @@ Node::Node(const ModelData& model)
   G.column.reserve(reserved * reserved);
   G.value.reserve(reserved * reserved);
   cascade.key.reserve(reserved);
-  rested.reserve(reserved);
+  colliding.reserve(reserved);
   cascade.winner.reserve(4 * reserved);
-  if (friction.any) friction.memory.resize(contact_of.size());
   contacts_on.resize(trees.of.size());
   for (auto& each : contacts_on) each.reserve(std::min(reserved, most_on_a_tree));
   impulses.reserve(impulses_reserved);
-  closing.reserve(contacts_reserved);
   u.setZero(static_cast<Eigen::Index>(reserved));
   rest.setZero(static_cast<Eigen::Index>(reserved));
   restitution.setOnes(static_cast<Eigen::Index>(reserved));
@@ -140,52 +121,6 @@ bool impact_pending(const Node& node) {
     if (node.contacts[i].motion == Contact::Motion::approaches) return true;
   }
   return false;
-}
-
-void come_to_rest(const ModelData& model, int contact, Node& node) {
-  Contact& c = node.contacts[contact];
-  solve(model, node.trees, c.n, node.M, node.column, c.column);
-  const double lambda = -c.u / dot(c.n, c.column);  // below 0: it takes the last bounce away
-  apply(node, contact, lambda);
-  node.closing.push_back(acted(node, c, lambda, Vec3::Zero()));
-  node.held[c.pair] = 1;
-  refresh_motions(node);
-  settle_held_contacts(model, node);
-}
-
-void settle_held_contacts(const ModelData& model, Node& node) {
-  if (settle_with_friction(model, node)) return refresh_motions(node);
-  std::array<int, most_constraints> held;
-  int count = 0;
-  for (int i = 0; i < node.touching && count < most_constraints; ++i) {
-    if (node.held[node.contacts[i].pair]) held[count++] = i;
-  }
-  if (count == 0) return;
-  for (int i = 0; i < count; ++i) {
-    Contact& c = node.contacts[held[i]];
-    solve(model, node.trees, c.n, node.M, node.column, c.column);
-  }
-  SmallVec lambda;
-  // impulses only push: those that would pull are let go, the worst first
-  for (; count > 0; --count) {
-    SmallMat G(count, count);
-    SmallVec u(count);
-    for (int i = 0; i < count; ++i) {
-      u[i] = node.contacts[held[i]].u;
-      for (int j = 0; j < count; ++j) {
-        G(i, j) = dot(node.contacts[held[i]].n, node.contacts[held[j]].column);
-      }
-    }
-    lambda = solve_small(G, -u);
-    int worst = 0;
-    if (lambda.minCoeff(&worst) >= 0) break;
-    std::swap(held[worst], held[count - 1]);
-  }
-  for (int i = 0; i < count; ++i) {
-    apply(node, held[i], lambda[i]);
-    node.closing.push_back(acted(node, node.contacts[held[i]], lambda[i], Vec3::Zero()));
-  }
-  refresh_motions(node);
 }
 
 double node_energy(const ModelData& model, const Node& node) {

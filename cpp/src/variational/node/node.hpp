@@ -57,7 +57,6 @@ struct Node {
   int touching = 0;
   PairPool pool;
   std::vector<int> contact_of;  ///< (pool) index in contacts, or -1
-  std::vector<char> held;       ///< (pool) kept closed by a force in the last arc
   std::vector<double> sunk;  ///< (pool) [m] phi of a pair that is silent here; else 0. Edges that
                              ///< meet at their ends, which corners watch: minus infinity
   Launch launch;
@@ -68,16 +67,16 @@ struct Node {
   Kinematics kin;
   PackedMatrix M;
   BroadPhase broad;
+  bool has_factors = false;  ///< M is that of q
   TreeCoordinates trees;
   VecX dq, u, rest, restitution, column;
   VecX dense;  ///< (n_v) zero between uses
   ContactMatrix G;
   CascadeScratch cascade;
+  std::vector<Contact*> colliding;            ///< with friction
   std::vector<std::vector<int>> contacts_on;  ///< (trees) contacts that touch it
   std::vector<Impulse> impulses;
-  std::vector<ContactImpulse> closing;  ///< of held contacts, until told
-  std::vector<int> silent;              ///< pairs with an entry in `sunk`
-  std::vector<int> rested;              ///< pairs that rested at the node before
+  std::vector<int> silent;  ///< pairs with an entry in `sunk`
   double total_mass = 0;
   double most_touch = 0;  ///< [m] no pair's epsilon_phi is larger
 };
@@ -89,12 +88,10 @@ Contact fresh_contact(const TreeCoordinates& trees, bool with_friction);
 
 Contact::Motion motion_of(double u, double epsilon_u);
 
-/// Writes the contact of a pair, with gap `g` and rows of the pair `as`; adds it if it is new.
-/// Needs M and v.
+/// Writes the contact of the pair at `place`, with gap `g` and rows of the pair `as`. Needs M and
+/// v.
 void write_contact(const ModelData& model, const StepOptions& options, double speed, int place,
-                   const Pair& as, const Gap& g, Node& node);
-
-void drop_last_contact(Node& node);
+                   const Pair& as, const Gap& g, Node& node, Contact& c);
 
 /// M and v = M^-1 p at the node. @return false where the mass matrix is singular
 bool set_velocity_at_node(const ModelData& model, Node& node);
@@ -121,22 +118,17 @@ double typical_speed(const ModelData& model, const StepOptions& options, const N
 /// The place of a pair in the pool; the lists by place grow with it.
 int place_of(const ModelData& model, int number, Node& node);
 
-/// Forgets the pairs that have been met, and with them what touched and was held.
+/// Forgets the pairs that have been met, and with them what touched.
 void forget_pairs(Node& node);
 
-/// Writes contacts (motion included) and v. Needs t, q, p. Pairs that have parted are not held.
+/// Places the frames at q. M is that of another q then.
+void place_node(const ModelData& model, Node& node);
+
+/// Writes contacts (motion included) and v, where pairs are near. Needs t, q, p, v and the frames.
 /// @return false where the mass matrix is singular.
 bool find_contacts(const ModelData& model, const StepOptions& options, Node& node);
 
 // node.cpp
-
-/// Takes the approach of held contacts away (a plastic projection): the closing half kick of a
-/// sustained contact. Changes p and v.
-void settle_held_contacts(const ModelData& model, Node& node);
-
-/// Ends the bouncing of a contact that leaves: it rests, and what is held stays so. Changes p and
-/// v; other contacts may approach then.
-void come_to_rest(const ModelData& model, int contact, Node& node);
 
 /// True where some touching pair approaches.
 bool impact_pending(const Node& node);
@@ -147,7 +139,7 @@ void set_contact_matrix(const ModelData& model, Node& node);
 /// H(q, p) [J] at a node. Needs set_configuration at q in node.kin and v.
 double node_energy(const ModelData& model, const Node& node);
 
-// node_friction.cpp
+// delassus.cpp
 
 /// Writes t_W and t of a contact. Needs the parts of c.n.
 void set_tangents(const ModelData& model, const Gap& gap, const Pair& pair, Node& node, Contact& c);
@@ -158,10 +150,6 @@ bool has_friction(const Node& node);
 /// The impact with friction: changes p and v, writes node.friction.impulses.
 /// @return false when it does not end
 bool collide_at_node(const ModelData& model, const CascadeOptions& options, Node& node);
-
-/// settle_held_contacts with friction: likewise of the sliding of those that stick. Changes p, v.
-/// @return false, and nothing changed, where no contact that is held has friction
-bool settle_with_friction(const ModelData& model, Node& node);
 
 // impact.cpp
 

@@ -1,6 +1,6 @@
 #include "variational/step/contact_report.hpp"
 
-#include "variational/flight/slip_blocks.hpp"
+#include <algorithm>
 
 namespace saltus {
 namespace {
@@ -31,31 +31,31 @@ void tell(const ContactImpulse& impulse, StepReport& report) {
 
 }  // namespace
 
-void tell_holds(const Node& node, Flight& f, StepReport& report) {
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind != ArcConstraint::Kind::hold) continue;
-    const Contact& contact = contact_of(node, c);
-    const Vec3 p = impulse_of(c);
-    tell(acted(node, contact, p[0], across(contact, p)), report);
+void tell_rows(const Node& node, const Flight& f, StepReport& report) {
+  for (const int i : f.rows.active) {
+    const Row& row = f.rows.row[i];
+    const Contact& contact = node.contacts[row.contact];
+    tell(acted(node, contact, row.p[0], across(contact, row.p)), report);
   }
+}
+
+void tell_residual(const Rows& rows, StepReport& report) {
+  const auto& friction = rows.W.friction;
+  if (std::all_of(friction.begin(), friction.end(), [](double mu) { return mu == 0; })) return;
+  report.friction_residual = std::max(report.friction_residual, rows.residual);
 }
 
 void tell_launch(const Flight& f, Node& node, StepReport& report) {
   double change = node.launch.change;
   node.launch.change = 0;
-  for (int i = 0; i < f.active; ++i) {
-    const ArcConstraint& c = f.constraints[i];
-    if (c.kind == ArcConstraint::Kind::launch) change += c.lambda;
-  }
+  if (f.is_launched) change += f.launch.lambda;
   if (change != 0) {
     report.impulses[static_cast<std::size_t>(node.launch.impulse)].lambda += change;
   }
 }
 
-void tell_closing(Node& node, StepReport& report) {
-  for (const ContactImpulse& each : node.closing) tell(each, report);
-  node.closing.clear();
+void tell_closing(const Flight& f, StepReport& report) {
+  for (const ContactImpulse& each : f.closings) tell(each, report);
 }
 
 }  // namespace saltus

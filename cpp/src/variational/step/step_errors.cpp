@@ -31,14 +31,10 @@ std::string Stepper::Impl::fast_joint() const {
 }
 
 void Stepper::Impl::fail(FlightOutcome outcome) {
-  halves_help = outcome != FlightOutcome::too_many_contacts;
+  halves_help = true;
   std::ostringstream text;
   const Arc& arc = flight.arc;
   switch (outcome) {
-    case FlightOutcome::too_many_contacts:
-      text << "more than " << most_constraints << " sustained contacts at t = " << node.t
-           << " s: " << contact_list();
-      break;
     case FlightOutcome::impact_not_located:
       text << "the time after t = " << node.t << " s at which "
            << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
@@ -46,8 +42,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
     case FlightOutcome::friction_not_settled:
       text << "friction at t = " << node.t
            << " s: " << model.pair_name(node.pool.number(flight.closing))
-           << " neither sticks nor slides, it is off Coulomb's law by "
-           << std::max(flight.slip.residual, node.friction.residual)
+           << " neither sticks nor slides, it is off Coulomb's law by " << flight.rows.residual
            << " of the largest impulse; a smaller h helps where it turns fast" << fast_joint();
       break;
     case FlightOutcome::no_progress:
@@ -107,9 +102,9 @@ void Stepper::Impl::fail_energy(double gain) {
   text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
        << " J, and contacts do no work: its equation was solved by another motion; held were ";
   std::vector<std::string> names;
-  for (int i = 0; i < flight.active; ++i) {
-    if (flight.constraints[i].kind != ArcConstraint::Kind::hold) continue;
-    names.push_back(model.pair_name(node.pool.number(flight.constraints[i].place)));
+  for (const int i : flight.rows.active) {
+    const Row& row = flight.rows.row[i];
+    if (row.p[0] > 0) names.push_back(model.pair_name(node.pool.number(row.place)));
   }
   text << list_names(names) << "; a smaller h helps, h = " << options.h << " s";
   throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);

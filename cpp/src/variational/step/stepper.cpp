@@ -5,8 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "variational/flight/arrival.hpp"
-#include "variational/flight/friction_arc.hpp"
+#include "variational/flight/finish.hpp"
 #include "variational/flight/impact_time.hpp"
 #include "variational/step/contact_report.hpp"
 #include "variational/terms/check_options.hpp"
@@ -100,11 +99,10 @@ void Stepper::Impl::step(State& state) {
 // Fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step_once(State& state, bool is_own) {
   report.iterations = report.arcs = report.sustained = 0;
-  report.residual = report.friction_residual = node.friction.residual = 0;
+  report.residual = report.friction_residual = 0;
   report.impacts.clear();
   report.impulses.clear();
   report.contacts.clear();
-  node.closing.clear();
   report.settlings.clear();
   report.certificates.clear();
   flight.settlings.clear();
@@ -114,10 +112,10 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   for (double left = h; left > 0;) {
     fly_one_arc(std::min(left, longest));
     left = flight.arc.tau < left ? left - flight.arc.tau : 0;
-    if (flight.active > 0 && left < no_duration * h) left = 0;
+    if (!flight.rows.active.empty() && left < no_duration * h) left = 0;
     arrive(t_start + (h - left));
   }
-  finish();
+  end_step();
   state = last;
 }
 
@@ -135,14 +133,13 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   start_anew(node.broad);
   start_anew(flight.broad);
   if (node.pool.is_full()) forget_pairs(node);
-  std::fill(node.held.begin(), node.held.end(), 0);
-  ++node.friction.flight;  // what friction did before is no guess
+  forget_memory(flight.rows);
   node.t = state.t;
   node.q = q;
   node.p = state.p;
-  if (!start_from_momenta(*model, node) || !find_contacts(*model, options, node)) {
-    fail(FlightOutcome::not_converged);
-  }
+  if (!start_from_momenta(*model, node)) fail(FlightOutcome::not_converged);
+  place_node(*model, node);
+  if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
   if (!is_own) check_overlap();
   if (impact_pending(node)) arrive(state.t);
 }
@@ -180,15 +177,15 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().fallback = true;
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
-  report.friction_residual = std::max(report.friction_residual, flight.slip.residual);
+  tell_residual(flight.rows, report);
   ++report.arcs;
-  report.sustained += flight.active;
+  report.sustained += count_pressed(flight.rows);
   tell_launch(flight, node, report);
-  tell_holds(node, flight, report);
+  tell_rows(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
   deepest = 0;
   for (int i = 0; i < node.touching; ++i) deepest = std::min(deepest, node.contacts[i].phi);
-  if (flight.active == 0) return;
+  if (flight.rows.active.empty()) return;
   kinetic = 0.5 * node.p.dot(node.v);
   energy = node_energy(*model, node);
 }
@@ -202,7 +199,7 @@ bool Stepper::Impl::is_last_attempt() const {
 /// kinetic energy and more, and less than 1 % of the right ones swung by .3. As long as shorter
 /// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
 void Stepper::Impl::check_energy() {
-  if (flight.active == 0 || node.launch.pending) return;
+  if (flight.rows.active.empty() || node.launch.pending) return;
   const double most = is_last_attempt() ? 0.3 : 0.02;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double slow = options.h * model->mass.gravity.norm() + node.most_touch / options.h;
@@ -224,13 +221,14 @@ void Stepper::Impl::check_gaps() {
 // Ends the arc at a node, and resolves the impact there if there is one.
 void Stepper::Impl::arrive(double t) {
   if (t > node.t || report.arcs > 0) {
-    if (!arrive_at_node(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
+    if (!finish(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
     check_energy();
     check_gaps();
-    tell_closing(node, report);
-    report.friction_residual = std::max(report.friction_residual, node.friction.residual);
-    if (!(node.friction.residual <= large_residual)) {
-      flight.closing = node.contacts[node.friction.contact[most_lawless(node.friction)]].pair;
+    tell_closing(flight, report);
+    tell_residual(flight.rows, report);
+    if (!(flight.rows.residual <= large_residual)) {
+      const Rows& rows = flight.rows;
+      flight.closing = rows.closing[most_lawless(rows.W, rows.u, rows.p)]->pair;
       fail(FlightOutcome::friction_not_settled);
     }
   }
@@ -243,6 +241,7 @@ void Stepper::Impl::arrive(double t) {
   if (impacts == options.max_impacts) fail_impacts();
   if (!resolve_node_impact(*model, options, conserved_energy(), node, report)) fail_jammed();
   flight.history.clear();
+  forget_memory(flight.rows);
 }
 
 // What the law conserves, at the node before the impact.
@@ -258,16 +257,17 @@ double Stepper::Impl::conserved_energy() {
   }
   if (options.law != ImpactLaw::discrete_energy && options.law != ImpactLaw::compensated) return 0;
   if (report.arcs == 0) {  // at the start: an arc of no duration
-    flight.active = 0;
+    flight.rows.active.clear();
     flight.arc.v = node.v;
     if (!solve_flight_arc(*model, options, 0, node, flight)) fail(FlightOutcome::not_converged);
   }
-  const ArcProblem problem{flight.arc.q_start, node.p, flight.arc.tau, {}, whole_step(options)};
+  const ArcProblem problem{flight.arc.q_start, node.p, flight.arc.tau, nullptr,
+                           whole_step(options)};
   return arc_energy(*model, problem, flight.arc, flight.scratch);
 }
 
 // A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.
-void Stepper::Impl::finish() {
+void Stepper::Impl::end_step() {
   if (node.launch.pending) {
     fly_one_arc(0);
     node.p = flight.arc.p_end;

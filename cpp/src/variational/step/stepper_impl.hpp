@@ -33,7 +33,7 @@ struct Stepper::Impl {
   void check_energy();
   void check_gaps();
   double conserved_energy();
-  void finish();
+  void end_step();
   [[noreturn]] void fail(FlightOutcome outcome);
   [[noreturn]] void fail_at_last(const std::exception_ptr& first) const;
   [[noreturn]] void fail_jammed();

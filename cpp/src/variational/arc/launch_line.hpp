@@ -1,0 +1,38 @@
+// The line of an arc after an impact: its discrete energy E_d is `energy`, by a change of the last
+// strong impulse (paper, (11c); theory, section 5).
+//
+// One unknown lambda along n, and one equation E_d(v) = energy, which Newton's method takes out of
+// the arc's linear system first: J dv - n dlambda = r, row.dv = -c.
+#pragma once
+
+#include "saltus/spatial/spatial.hpp"
+
+namespace saltus {
+
+struct ModelData;
+struct ArcProblem;
+struct ArcScratch;
+
+struct LaunchLine {
+  double energy = 0;  ///< [J]
+  double lambda = 0;  ///< [N s] guess in, solution out
+  VecX n;             ///< (n_v) direction of the impulse
+  VecX row, column;   ///< (n_v) dE_d/dv and J^-1 n, written by take_out_line
+  double own = 1;     ///< row.column, likewise
+};
+
+/// E_d [J] at the last evaluation.
+double discrete_energy(const ModelData& model, const ArcProblem& problem, const VecX& v,
+                       const ArcScratch& s);
+
+/// Meets the line in s.dv, which is J^-1 r: changes s.dv and lambda.
+void take_out_line(const ModelData& model, const ArcProblem& problem, const VecX& v, ArcScratch& s);
+
+/// Meets the line in a column J^-1 f of another force. @return dlambda of a unit of that force
+double take_out_line(const LaunchLine& line, VecX& column);
+
+/// How far the line is from met, scaled like the momentum residual; 0 without one.
+double line_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
+                     const ArcScratch& s);
+
+}  // namespace saltus

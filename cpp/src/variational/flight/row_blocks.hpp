@@ -1,0 +1,28 @@
+// What impulses of the rows change in an arc.
+//
+// The rates u of the active rows have gradients C = du/dv. An impulse, along the rows B = [N; T] at
+// the arc's start, changes them by
+//
+//   W = C J^-1 B^T,   J the arc's Newton matrix
+//
+// which is symmetric but for O(h), as bodies turn within the arc. It is not made so: a mean with
+// its transpose would have twice the rank, with stiff directions where there is no motion at all.
+#pragma once
+
+#include "variational/flight/flight.hpp"
+
+namespace saltus {
+
+/// Of the active rows with the impulses in flight.rows.p: writes their rates u at flight.arc.v, and
+/// flight.rows.momentum, which all impulses have been added to.
+/// @return how far they are from the arc's equation and from the law; of the latter not at first,
+/// when W has not been written
+Lawlessness set_row_rates(const ModelData& model, const StepOptions& options, const Node& node,
+                          Flight& flight);
+
+/// Writes W and the linearised rows. One Newton step of flight.arc.v and u goes before.
+/// @return false where there is no number
+bool set_row_blocks(const ModelData& model, const StepOptions& options, const Node& node,
+                    Flight& flight);
+
+}  // namespace saltus
