@@ -96,7 +96,7 @@ namespace {
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
                 bool keep_scale = false) {
   const double size = momentum_residual(model, a, v, s, keep_scale);
-  return std::max(size, line_residual(model, a, v, s));
+  return a.launch == nullptr ? size : std::max(size, line_residual(model, a, v, s));
 }
 
 /// One Newton step from arc.v with backtracking; returns the new residual, infinity where J is

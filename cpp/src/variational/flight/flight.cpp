@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
+#include "variational/flight/held_arc.hpp"
 #include "variational/flight/impact_time.hpp"
 #include "variational/flight/launch.hpp"
 
@@ -98,7 +99,8 @@ bool solve_first_arc(const ModelData& model, const StepOptions& options, double 
 }
 
 FlightOutcome no_arc(const Flight& f) {
-  return f.rows.active.empty() ? FlightOutcome::not_converged : FlightOutcome::friction_not_settled;
+  const bool has_arc = !f.rows.active.empty() && f.arc.residual <= most_residual;
+  return has_arc ? FlightOutcome::law_not_met : FlightOutcome::not_converged;
 }
 
 /// Rows of what rests, and the arc over the whole time left.

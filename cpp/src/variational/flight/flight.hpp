@@ -49,8 +49,8 @@ enum class FlightOutcome {
   arrived,
   not_converged,
   no_progress,
-  impact_not_located,    ///< of the pair flight.closing
-  friction_not_settled,  ///< likewise
+  impact_not_located,  ///< of the pair flight.closing
+  law_not_met,         ///< likewise
 };
 
 /// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown, and

@@ -10,9 +10,8 @@
 namespace saltus {
 namespace {
 
-constexpr int most_rounds = 40;          ///< 2 to 6 are usual
-constexpr int most_idle = 8;             ///< rounds that do not halve what is unlawful
-constexpr double most_residual = 1e-12;  ///< of the arc's equation, quadratically less as a rule
+constexpr int most_rounds = 40;  ///< 2 to 6 are usual
+constexpr int most_idle = 8;     ///< rounds that do not halve what is unlawful
 
 /// To rounding, which grows with what holds each other; or where redundant contacts that turn keep
 /// from it, as far as it will go.

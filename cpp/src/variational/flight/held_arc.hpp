@@ -13,6 +13,9 @@
 
 namespace saltus {
 
+/// Of the arc's equation in a held arc: quadratically less as a rule.
+inline constexpr double most_residual = 1e-12;
+
 /// Newton's method on the arc of duration tau from the node with the active rows, from
 /// flight.arc.v and their impulses; where that leads nowhere from the node's v and none.
 /// @return false where the law is not met in a bounded number of rounds, by flight.closing

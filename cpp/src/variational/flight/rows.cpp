@@ -122,14 +122,14 @@ int count_pressed(const Rows& rows) {
 }
 
 void make_rows(const ModelData& model, double tau, Node& node, Rows& rows) {
-  const auto pairs = static_cast<std::size_t>(node.pool.size());
-  rows.memory.resize(std::max(pairs, rows.memory.size()));
   ++rows.flight;
   rows.count = 0;
   rows.active.clear();
   rows.tau = tau;
   rows.residual = 0;
-  if (tau <= 0) return;
+  if (tau <= 0 || node.touching == 0) return;
+  const auto pairs = static_cast<std::size_t>(node.pool.size());
+  rows.memory.resize(std::max(pairs, rows.memory.size()));
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.motion == Contact::Motion::rests) add_row(model, i, tau, node, rows);

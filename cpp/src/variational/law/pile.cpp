@@ -239,6 +239,12 @@ double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& 
   return one.worst;
 }
 
+void add_rates(const ContactBlocks& W, const std::vector<Vec3>& p, std::vector<Vec3>& u) {
+  for (int k = 0; k < W.size(); ++k) {
+    for (int e = W.start[k]; e < W.start[k + 1]; ++e) u[W.contact[e]] += W.block[e] * p[k];
+  }
+}
+
 int most_lawless(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p) {
   int most = 0;
   double worst = 0;

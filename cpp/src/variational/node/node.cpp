@@ -116,6 +116,14 @@ void set_contact_matrix(const ModelData& model, Node& node) {
   clear_contacts_by_tree(node);
 }
 
+void refresh_motions(Node& node) {
+  for (int i = 0; i < node.touching; ++i) {
+    Contact& c = node.contacts[i];
+    c.u = dot(node.trees, c.n, node.v);
+    c.motion = motion_of(c.u, c.epsilon_u);
+  }
+}
+
 bool impact_pending(const Node& node) {
   for (int i = 0; i < node.touching; ++i) {
     if (node.contacts[i].motion == Contact::Motion::approaches) return true;

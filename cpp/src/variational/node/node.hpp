@@ -130,6 +130,9 @@ bool find_contacts(const ModelData& model, const StepOptions& options, Node& nod
 
 // node.cpp
 
+/// u and motion of all contacts, where v has changed.
+void refresh_motions(Node& node);
+
 /// True where some touching pair approaches.
 bool impact_pending(const Node& node);
 

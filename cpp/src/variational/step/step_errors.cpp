@@ -15,6 +15,15 @@ std::string Stepper::Impl::contact_list() const {
   return list_names(names);
 }
 
+/// What the arc is held by.
+std::string Stepper::Impl::held_list() const {
+  std::vector<std::string> names;
+  for (const int i : flight.rows.active) {
+    names.push_back(model.pair_name(node.pool.number(flight.rows.row[i].place)));
+  }
+  return names.empty() ? "" : ", held by " + list_names(names);
+}
+
 /// The ball joint that turns farthest in an arc, if it is half a turn or more.
 std::string Stepper::Impl::fast_joint() const {
   const FastestTurn fastest = fastest_turn(model->tree, node.v, flight.arc.tau);
@@ -39,10 +48,12 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
       text << "the time after t = " << node.t << " s at which "
            << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
       break;
-    case FlightOutcome::friction_not_settled:
-      text << "friction at t = " << node.t
+    case FlightOutcome::law_not_met:
+      text << "contact at t = " << node.t
            << " s: " << model.pair_name(node.pool.number(flight.closing))
-           << " neither sticks nor slides, it is off Coulomb's law by " << flight.rows.residual
+           << (has_friction(node) ? " neither sticks nor slides, it is off Coulomb's law by "
+                                  : " neither opens nor is pressed, it is off the law by ")
+           << flight.rows.residual
            << " of the largest impulse; a smaller h helps where it turns fast" << fast_joint();
       break;
     case FlightOutcome::no_progress:
@@ -51,9 +62,9 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
       break;
     default:
       text << "DEL residual " << arc.residual << " after " << arc.iterations
-           << " iterations at t = " << node.t << " s, arc of " << arc.tau
-           << " s; a smaller h helps where the motion is fast, h = " << options.h << " s";
-      text << fast_joint();
+           << " iterations at t = " << node.t << " s, arc of " << arc.tau << " s" << held_list()
+           << "; a smaller h helps where the motion is fast, h = " << options.h << " s"
+           << fast_joint();
   }
   throw StepError(text.str(), node.t, arc.residual, arc.iterations);
 }
@@ -77,7 +88,7 @@ void Stepper::Impl::fail_jammed() {
     const auto fastest =
         std::min_element(begin, end, [](const Contact& a, const Contact& b) { return a.u < b.u; });
     flight.closing = fastest->pair;
-    fail(FlightOutcome::friction_not_settled);
+    fail(FlightOutcome::law_not_met);
   }
   std::ostringstream text;
   text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
@@ -100,13 +111,8 @@ void Stepper::Impl::fail_energy(double gain) {
   halves_help = true;
   std::ostringstream text;
   text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
-       << " J, and contacts do no work: its equation was solved by another motion; held were ";
-  std::vector<std::string> names;
-  for (const int i : flight.rows.active) {
-    const Row& row = flight.rows.row[i];
-    if (row.p[0] > 0) names.push_back(model.pair_name(node.pool.number(row.place)));
-  }
-  text << list_names(names) << "; a smaller h helps, h = " << options.h << " s";
+       << " J, and contacts do no work: its equation was solved by another motion" << held_list()
+       << "; a smaller h helps, h = " << options.h << " s";
   throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
 }
 

@@ -177,15 +177,15 @@ void Stepper::Impl::fly_one_arc(double left) {
     report.impacts.back().fallback = true;
     report.impacts.back().law = ImpactLaw::nodal_energy;
   }
-  tell_residual(flight.rows, report);
   ++report.arcs;
-  report.sustained += count_pressed(flight.rows);
   tell_launch(flight, node, report);
-  tell_rows(node, flight, report);
   flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
   deepest = 0;
   for (int i = 0; i < node.touching; ++i) deepest = std::min(deepest, node.contacts[i].phi);
   if (flight.rows.active.empty()) return;
+  tell_residual(flight.rows, report);
+  tell_rows(node, flight, report);
+  report.sustained += count_pressed(flight.rows);
   kinetic = 0.5 * node.p.dot(node.v);
   energy = node_energy(*model, node);
 }
@@ -229,7 +229,7 @@ void Stepper::Impl::arrive(double t) {
     if (!(flight.rows.residual <= large_residual)) {
       const Rows& rows = flight.rows;
       flight.closing = rows.closing[most_lawless(rows.W, rows.u, rows.p)]->pair;
-      fail(FlightOutcome::friction_not_settled);
+      fail(FlightOutcome::law_not_met);
     }
   }
   const int impacts = static_cast<int>(report.impacts.size());

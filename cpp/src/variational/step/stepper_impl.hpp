@@ -42,6 +42,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
   std::string contact_list() const;
+  std::string held_list() const;
   std::string fast_joint() const;
 
   Model model;
