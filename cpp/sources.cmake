@@ -98,20 +98,24 @@ set(SALTUS_SOURCES
   cpp/src/variational/node/contacts.cpp
   cpp/src/variational/node/node.cpp
   cpp/src/variational/node/pair_pool.cpp
+  cpp/src/variational/node/scene.cpp
   cpp/src/variational/arc/arc.cpp
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
+  cpp/src/variational/arc/finish.cpp
   cpp/src/variational/arc/launch_line.cpp
+  cpp/src/variational/arc/memory.cpp
+  cpp/src/variational/arc/row_blocks.cpp
+  cpp/src/variational/arc/rows.cpp
+  cpp/src/variational/arc/solve.cpp
   cpp/src/variational/impact/certify.cpp
   cpp/src/variational/impact/custom_law.cpp
   cpp/src/variational/impact/impact.cpp
-  cpp/src/variational/flight/finish.cpp
+  cpp/src/variational/flight/first_hit.cpp
   cpp/src/variational/flight/flight.cpp
-  cpp/src/variational/flight/held_arc.cpp
   cpp/src/variational/flight/impact_time.cpp
   cpp/src/variational/flight/launch.cpp
-  cpp/src/variational/flight/row_blocks.cpp
-  cpp/src/variational/flight/rows.cpp
+  cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/stepper.cpp

@@ -66,7 +66,7 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
   }
   evaluate(model, a, v, s);
   if (!keep_scale) set_scale(model, a.tau, s);
-  const bool compensated = a.whole > 0 && (a.tau < a.whole || a.launch != nullptr);
+  const bool compensated = a.whole > 0 && (a.tau < a.whole || is_matched(a.launch));
   if (compensated && !compensate(model, a, s, keep_scale)) {
     return std::numeric_limits<double>::infinity();
   }
@@ -96,7 +96,7 @@ namespace {
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
                 bool keep_scale = false) {
   const double size = momentum_residual(model, a, v, s, keep_scale);
-  return a.launch == nullptr ? size : std::max(size, line_residual(model, a, v, s));
+  return is_matched(a.launch) ? std::max(size, line_residual(model, a, v, s)) : size;
 }
 
 /// One Newton step from arc.v with backtracking; returns the new residual, infinity where J is
@@ -108,13 +108,13 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   if (!factorize(model.tree, model.packed, s.w, a.tau, s.J)) return infinity;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
-  if (a.launch != nullptr) take_out_line(model, a, arc.v, s);
+  if (is_matched(a.launch)) take_out_line(model, a, arc.v, s);
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
   // v has changed by a part of `before`, and so have the terms: a scale is known well enough.
   // The launch's impulse may have come from nothing.
   constexpr double little = 1e-3;
-  const bool keep_scale = before < little && a.launch == nullptr;
+  const bool keep_scale = before < little && !is_matched(a.launch);
   double after = residual(model, a, arc.v, s, keep_scale);
   // Newton's own direction shortens until the residual falls; 2^-12 of a step is no direction
   for (int k = 0; k < 12 && !(after < before) && before > 1e-10; ++k) {
@@ -178,7 +178,7 @@ bool is_converged(double residual, double before) {
   return residual <= floor || (residual <= rounding && residual > before / 4);
 }
 
-bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& options, Arc& arc,
+bool solve_arc(const ModelData& model, const ArcProblem& a, int max_iterations, Arc& arc,
                ArcScratch& s) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   arc.tau = a.tau;
@@ -186,7 +186,7 @@ bool solve_arc(const ModelData& model, const ArcProblem& a, const StepOptions& o
   arc.residual = residual(model, a, arc.v, s);
   if (!std::isfinite(arc.residual)) return false;
   bool converged = is_converged(arc.residual, infinity);
-  while (!converged && arc.iterations < options.max_iterations) {
+  while (!converged && arc.iterations < max_iterations) {
     const double before = arc.residual;
     arc.residual = newton_step(model, a, before, arc, s);
     ++arc.iterations;

@@ -12,7 +12,7 @@
 // an arc: the equation has a pole there, and farther than that its residual counts as infinite.
 //
 // After an impact the arc may have a line more, of one impulse lambda and one equation:
-// launch_line.hpp. What contacts push is part of p: held_arc.hpp.
+// launch_line.hpp. What contacts push is part of p: solve.hpp.
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
 // (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
@@ -40,13 +40,13 @@ struct ArcProblem {
   const VecX& q;
   const VecX& p;
   double tau;
-  LaunchLine* launch = nullptr;  ///< none
+  LaunchLine* launch = nullptr;  ///< none; not one whose use is none
   double whole = 0;  ///< [s] the step h that the arc is a part of, under `compensated`; else 0
 };
 
-/// ArcProblem::whole of these options.
-inline double whole_step(const StepOptions& options) {
-  return options.law == ImpactLaw::compensated ? options.h : 0;
+/// True where the line has an equation of its own.
+inline bool is_matched(const LaunchLine* line) {
+  return line != nullptr && line->use == LaunchLine::Use::matched;
 }
 
 struct Arc {
@@ -82,10 +82,11 @@ struct ArcScratch {
   VecX r, scale, dv, x;
 };
 
-/// @return false when it does not converge within options.max_iterations; `arc` then holds the
-/// best residual and the iterations spent.
-bool solve_arc(const ModelData& model, const ArcProblem& problem, const StepOptions& options,
-               Arc& arc, ArcScratch& s);
+/// Newton's method from arc.v.
+/// @return false when it does not converge within so many iterations; `arc` then holds the best
+/// residual and the iterations spent.
+bool solve_arc(const ModelData& model, const ArcProblem& problem, int max_iterations, Arc& arc,
+               ArcScratch& s);
 
 /// Poses at q_end in s.w_end.
 void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s);

@@ -37,13 +37,14 @@ bool improve(const ModelData& model, const ArcProblem& a, double phi, const Clos
 
 }  // namespace
 
-bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
-                       const StepOptions& options, const ClosingGap& gap, Arc& arc, ArcScratch& s) {
+bool solve_closing_arc(const ModelData& model, const ArcProblem& problem, const ClosingGap& gap,
+                       Arc& arc, ArcScratch& s) {
+  arc.tau = problem.tau;
   constexpr int most_iterations = 8;  // quadratic from a good guess: 2 to 4
   const double touch = gap.pair.touch;
   double before = std::numeric_limits<double>::infinity(), phi_before = before;
   for (arc.iterations = 0; arc.iterations <= most_iterations; ++arc.iterations) {
-    const ArcProblem a{q, p, arc.tau, nullptr, whole_step(options)};
+    const ArcProblem a{problem.q, problem.p, arc.tau, nullptr, problem.whole};
     arc.residual = momentum_residual(model, a, arc.v, s);
     if (!std::isfinite(arc.residual)) return false;
     const double phi = gap_at_end(model, a, arc.v, gap.pair, s, gap.n);

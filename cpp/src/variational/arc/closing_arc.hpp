@@ -24,10 +24,10 @@ struct ClosingGap {
   VecX& rate;      ///< (n_q) written: v'
 };
 
-/// Newton from arc.v and arc.tau of an arc that nothing holds.
+/// Newton from arc.v and problem.tau of an arc that nothing holds and without a launch.
 /// @return false where it leaves (0, longest], does not converge in a few iterations, or the gap
 /// does not close: the guarded search of impact_time.cpp takes over from the old guess.
-bool solve_closing_arc(const ModelData& model, const VecX& q, const VecX& p,
-                       const StepOptions& options, const ClosingGap& gap, Arc& arc, ArcScratch& s);
+bool solve_closing_arc(const ModelData& model, const ArcProblem& problem, const ClosingGap& gap,
+                       Arc& arc, ArcScratch& s);
 
 }  // namespace saltus

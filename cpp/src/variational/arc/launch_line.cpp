@@ -37,7 +37,7 @@ double take_out_line(const LaunchLine& line, VecX& column) {
 
 double line_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
                      const ArcScratch& s) {
-  if (a.launch == nullptr) return 0;
+  if (!is_matched(a.launch)) return 0;
   const double target = a.launch->energy, energy = discrete_energy(model, a, v, s);
   return std::abs(energy - target) / (std::abs(target) + std::abs(v.dot(s.L_v)));
 }

@@ -1,8 +1,7 @@
-// The line of an arc after an impact: its discrete energy E_d is `energy`, by a change of the last
-// strong impulse (paper, (11c); theory, section 5).
+// The line of an arc after an impact: a change lambda of the last strong impulse, along n.
 //
-// One unknown lambda along n, and one equation E_d(v) = energy, which Newton's method takes out of
-// the arc's linear system first: J dv - n dlambda = r, row.dv = -c.
+// Where it is matched it has an equation, E_d(v) = energy (paper, (11c); theory, section 5), which
+// Newton's method takes out of the arc's linear system first: J dv - n dlambda = r, row.dv = -c.
 #pragma once
 
 #include "saltus/spatial/spatial.hpp"
@@ -14,8 +13,10 @@ struct ArcProblem;
 struct ArcScratch;
 
 struct LaunchLine {
-  double energy = 0;  ///< [J]
-  double lambda = 0;  ///< [N s] guess in, solution out
+  enum class Use { none, given, matched };
+  Use use = Use::none;
+  double energy = 0;  ///< [J] where it is matched
+  double lambda = 0;  ///< [N s] given, or guess in and solution out
   VecX n;             ///< (n_v) direction of the impulse
   VecX row, column;   ///< (n_v) dE_d/dv and J^-1 n, written by take_out_line
   double own = 1;     ///< row.column, likewise
@@ -31,7 +32,7 @@ void take_out_line(const ModelData& model, const ArcProblem& problem, const VecX
 /// Meets the line in a column J^-1 f of another force. @return dlambda of a unit of that force
 double take_out_line(const LaunchLine& line, VecX& column);
 
-/// How far the line is from met, scaled like the momentum residual; 0 without one.
+/// How far a matched line is from met, scaled like the momentum residual; else 0.
 double line_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
                      const ArcScratch& s);
 

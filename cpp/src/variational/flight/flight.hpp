@@ -12,37 +12,39 @@
 #include <optional>
 #include <vector>
 
-#include "saltus/variational/options.hpp"
-#include "variational/arc/arc.hpp"
 #include "variational/arc/energy_meter.hpp"
-#include "variational/arc/guess.hpp"
-#include "variational/flight/rows.hpp"
+#include "variational/arc/memory.hpp"
+#include "variational/arc/solve.hpp"
+#include "variational/impact/impact.hpp"
 
 namespace saltus {
 
+/// Pairs that no impact is sought of, as long as contacts hold as they do.
+struct Skips {
+  std::vector<char> passed;  ///< (pool) it grazes, or rests
+  std::vector<char> passes;  ///< (pool) how often that was so in this flight
+
+  void start(int slots);
+  void fit(int slots);  ///< a pair has been met for the first time
+  void let_pass(int slot);
+  void watch_again();  ///< what may pass on one arc is watched on one that others hold
+};
+
+/// Written by `fly`.
 struct Flight {
-  Flight(const ModelData& model, const StepOptions& options, bool with_friction);
+  explicit Flight(const Scene& scene);
 
-  Arc arc;  ///< the result
-  GuessHistory history;
-  int closing = -1;          ///< place of the pair whose impact was sought last
-  int iterations = 0;        ///< Newton iterations of all arcs tried
-  double settling_time = 0;  ///< [s] from the node, of the pair that settles
-  bool has_rate = false;     ///< `rate` is v' of the arc, which ends where a gap closes
-
-  std::vector<Settling> settlings;       ///< appended to; `pair` is a place in the pool
-  std::vector<ContactImpulse> closings;  ///< of the half kick at the end of the arc before
-  Rows rows;
-  LaunchLine launch;         ///< of the arc, if
-  bool is_launched = false;  ///< it has one
+  ArcWork work;                     ///< the arc flown, and what held contacts closed in it
+  int closing = -1;                 ///< slot of the pair whose impact was sought last
+  std::vector<Settling> settlings;  ///< of this flight; `pair` is a slot
+  bool has_missed_energy = false;   ///< the launch could not be met: nodal_energy was used
 
   // scratch
-  ArcScratch scratch;
+  Skips skips;
   BroadPhase broad;
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
-  VecX rate, start_v, before_v, n;
-  std::vector<char> passed;  ///< (pairs) no impact to be found, as long as contacts hold as now
-  std::vector<char> passes;  ///< (pairs) how often that was so in this flight
+  double settling_time = 0;          ///< [s] from the node, of the pair that settles
+  VecX dq, start_v, before_v, n;
 };
 
 enum class FlightOutcome {
@@ -50,13 +52,12 @@ enum class FlightOutcome {
   not_converged,
   no_progress,
   impact_not_located,  ///< of the pair flight.closing
-  law_not_met,         ///< likewise
+  law_not_met,         ///< of the pair flight.work.unlawful
 };
 
-/// Flies from the node for at most `left` [s]. On `arrived`, flight.arc is the arc flown, and
-/// flight.rows what held contacts closed in it.
-/// @param fallback set where options.law could not be met and nodal_energy was used
-FlightOutcome fly(const ModelData& model, const StepOptions& options, double left, Node& node,
-                  Flight& flight, bool& fallback);
+/// Flies from the node for at most `left` [s].
+/// @param launch what the arc after an impact has to meet, or nullptr
+FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const Node& node,
+                  Memory& memory, Flight& flight);
 
 }  // namespace saltus

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "variational/arc/closing_arc.hpp"
-#include "variational/flight/held_arc.hpp"
 
 namespace saltus {
 namespace {
@@ -16,21 +15,24 @@ struct GapAtEnd {
   double slope;
 };
 
-double phi_at_end(const ModelData& model, const Pair& pair, Flight& f) {
-  place_end(model, f.arc.q_end, f.scratch);
-  return pair_gap_at_end(model, pair, f.scratch).phi;
+double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
+  place_end(scene.model, work.arc.q_end, work.scratch);
+  return pair_gap_at_end(scene.model, pair, work.scratch).phi;
 }
 
-/// Also writes flight.rate = v'(tau), the next guess's slope.
-GapAtEnd gap_at_end(const ModelData& model, const Pair& pair, Flight& f) {
-  place_end(model, f.arc.q_end, f.scratch);
-  const Gap g = pair_gap_at_end(model, pair, f.scratch);
+/// Also writes memory.rate = v'(tau), the next guess's slope.
+GapAtEnd gap_at_end(const Scene& scene, const Pair& pair, Memory& memory, Flight& f) {
+  const ModelData& model = scene.model;
+  const Arc& arc = f.work.arc;
+  ArcScratch& s = f.work.scratch;
+  place_end(model, arc.q_end, s);
+  const Gap g = pair_gap_at_end(model, pair, s);
   f.n.setZero();
-  add_gap_gradient(model.tree, f.scratch.kin_end, pair, g, f.n);
-  arc_rate(model, f.arc, f.scratch, f.rate);
-  pull_back_end(model.packed, f.scratch.J, f.n);
-  f.has_rate = true;
-  return {g.phi, f.n.dot(f.arc.v) + f.arc.tau * f.n.dot(f.rate)};
+  add_gap_gradient(model.tree, s.kin_end, pair, g, f.n);
+  arc_rate(model, arc, s, memory.rate);
+  pull_back_end(model.packed, s.J, f.n);
+  memory.has_rate = true;
+  return {g.phi, f.n.dot(arc.v) + arc.tau * f.n.dot(memory.rate)};
 }
 
 struct Bracket {
@@ -46,30 +48,35 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
   return (b.lo + b.hi) / 2;
 }
 
-/// Time and velocity at once; false leaves the flight's guess as it was.
-bool refine_at_once(const ModelData& model, const StepOptions& options, const Pair& pair,
-                    double tau, double longest, Node& node, Flight& f) {
-  if (!f.rows.active.empty() || f.is_launched) return false;
-  f.before_v = f.arc.v;
-  f.arc.tau = tau;
-  const ClosingGap gap{pair, longest, f.n, f.rate};
-  const bool closed = solve_closing_arc(model, node.q, node.p, options, gap, f.arc, f.scratch);
-  f.iterations += f.arc.iterations;
-  f.has_rate = f.has_rate || f.arc.iterations > 0;
-  if (!closed) f.arc.v = f.before_v;
+bool is_free(const ArcWork& work) {
+  return work.rows.active.empty() && work.line.use == LaunchLine::Use::none;
+}
+
+/// Time and velocity at once; false leaves the arc's guess as it was.
+bool refine_at_once(const Scene& scene, const Pair& pair, double tau, double longest,
+                    const Node& node, Memory& memory, Flight& f) {
+  if (!is_free(f.work)) return false;
+  Arc& arc = f.work.arc;
+  f.before_v = arc.v;
+  const ClosingGap gap{pair, longest, f.n, memory.rate};
+  const ArcProblem problem = arc_problem(scene, tau, node, f.work);
+  const bool closed = solve_closing_arc(scene.model, problem, gap, arc, f.work.scratch);
+  f.work.iterations += arc.iterations;
+  memory.has_rate = memory.has_rate || arc.iterations > 0;
+  if (!closed) arc.v = f.before_v;
   return closed;
 }
 
-ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair& pair, double tau,
-                  Bracket b, Node& node, Flight& f) {
-  if (refine_at_once(model, options, pair, tau, b.hi, node, f)) return ImpactTime::found;
+ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, const Node& node,
+                  Memory& memory, Flight& f) {
+  if (refine_at_once(scene, pair, tau, b.hi, node, memory, f)) return ImpactTime::found;
   const double touch = pair.touch;
   const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();
   // bisection alone takes 60 halvings to the last bit; Newton 3 to 5 steps
   for (int k = 0; k < 100; ++k) {
-    if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;
-    const GapAtEnd g = gap_at_end(model, pair, f);
+    if (!solve(scene, tau, node, f.work)) return ImpactTime::not_converged;
+    const GapAtEnd g = gap_at_end(scene, pair, memory, f);
     const bool stalled = std::abs(g.phi) <= touch / 2 && std::abs(g.phi) >= phi_before / 2;
     if (std::abs(g.phi) <= 1e-3 * touch || stalled) return ImpactTime::found;
     if (g.phi > 0 && tau >= whole) return ImpactTime::missed;
@@ -88,7 +95,7 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
     // slopes leave constraints aside, and may lead nowhere
     const bool halve = k >= 10 && b.hi_is_closed;
     const double next = halve ? (b.lo + b.hi) / 2 : next_tau(b, tau, g);
-    f.arc.v += (next - tau) * f.rate;
+    f.work.arc.v += (next - tau) * memory.rate;
     tau = next;
   }
   // no duration was found at which the gap is closed: it grazes, a double root and no impact
@@ -97,14 +104,11 @@ ImpactTime refine(const ModelData& model, const StepOptions& options, const Pair
 
 /// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
 /// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
-ImpactTime find_return(const ModelData& model, const StepOptions& options, int place, Node& node,
-                       Flight& f) {
-  const int contact = node.contact_of[place];
-  if (contact < 0) return ImpactTime::missed;  // a part that does not face the other any more
-  const Contact& c = node.contacts[contact];
-  const Pair& pair = node.pool[place];
-  const double tau = f.arc.tau;
-  const double drop = phi_at_end(model, pair, f) - c.phi - c.u * tau;
+ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& memory, Flight& f) {
+  const Contact& c = node.contacts[node.contact_at(slot)];
+  const Pair& pair = node.pool[slot];
+  const double tau = f.work.arc.tau;
+  const double drop = phi_at_end(scene, pair, f.work) - c.phi - c.u * tau;
   if (!(drop < 0)) return ImpactTime::missed;
   const double back = std::min(tau, -c.u * tau * tau / drop);
   // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
@@ -114,50 +118,36 @@ ImpactTime find_return(const ModelData& model, const StepOptions& options, int p
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;
   for (int k = 0;; ++k) {
-    if (!solve_flight_arc(model, options, lo, node, f)) return ImpactTime::not_converged;
-    if (phi_at_end(model, pair, f) > pair.touch) break;
+    if (!solve(scene, lo, node, f.work)) return ImpactTime::not_converged;
+    if (phi_at_end(scene, pair, f.work) > pair.touch) break;
     if (k == 40) return ImpactTime::at_rest;
     lo /= 2;
   }
   const double start = back > lo ? back : 1.5 * lo;
-  return refine(model, options, pair, std::min(start, tau), {lo, tau, false}, node, f);
+  return refine(scene, pair, std::min(start, tau), {lo, tau, false}, node, memory, f);
 }
 
 }  // namespace
 
-ArcProblem arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
-  return {node.q, node.p, tau, f.is_launched ? &f.launch : nullptr, whole_step(options)};
-}
-
-ArcProblem held_arc_problem(const StepOptions& options, double tau, const Node& node, Flight& f) {
-  return {node.q, f.rows.momentum, tau, f.is_launched ? &f.launch : nullptr, whole_step(options)};
-}
-
-bool solve_flight_arc(const ModelData& model, const StepOptions& options, double tau, Node& node,
-                      Flight& f) {
-  const bool is_held = tau > 0 && !f.rows.active.empty();
-  const bool converged =
-      is_held ? solve_held_arc(model, options, tau, node, f)
-              : solve_arc(model, arc_problem(options, tau, node, f), options, f.arc, f.scratch);
-  f.iterations += f.arc.iterations;
-  return converged;
-}
-
-ImpactTime find_impact_time(const ModelData& model, const StepOptions& options, int place, double s,
-                            Node& node, Flight& f) {
-  if (s <= 0) return find_return(model, options, place, node, f);
-  const Pair& pair = node.pool[place];
-  const double tau = f.arc.tau;
-  // most often the velocity of the shorter arc can be told from the arcs before
-  if (f.rows.active.empty() && !f.is_launched &&
-      f.history.extrapolate(node.t + s * tau / 2, f.arc.v)) {
-    if (refine_at_once(model, options, pair, s * tau, tau, node, f)) return ImpactTime::found;
-    f.arc.v = f.start_v;
-    if (!solve_flight_arc(model, options, tau, node, f)) return ImpactTime::not_converged;
+ImpactTime find_impact_time(const Scene& scene, const FirstHit& hit, const Node& node,
+                            Memory& memory, Flight& f) {
+  if (hit.hops || hit.s <= 0) {
+    // a part that does not face the other any more is none
+    if (node.contact_at(hit.slot) < 0) return ImpactTime::missed;
+    return find_return(scene, hit.slot, node, memory, f);
   }
-  const bool closed = gap_at_end(model, pair, f).phi < 0;
-  f.arc.v += (s - 1) * tau * f.rate;
-  return refine(model, options, pair, s * tau, {0, tau, closed}, node, f);
+  const Pair& pair = node.pool[hit.slot];
+  ArcWork& work = f.work;
+  const double tau = work.arc.tau;
+  // most often the velocity of the shorter arc can be told from the arcs before
+  if (is_free(work) && memory.velocities.extrapolate(node.t + hit.s * tau / 2, work.arc.v)) {
+    if (refine_at_once(scene, pair, hit.s * tau, tau, node, memory, f)) return ImpactTime::found;
+    work.arc.v = f.start_v;
+    if (!solve(scene, tau, node, work)) return ImpactTime::not_converged;
+  }
+  const bool closed = gap_at_end(scene, pair, memory, f).phi < 0;
+  work.arc.v += (hit.s - 1) * tau * memory.rate;
+  return refine(scene, pair, hit.s * tau, {0, tau, closed}, node, memory, f);
 }
 
 }  // namespace saltus

@@ -4,101 +4,95 @@
 #include <cmath>
 #include <limits>
 
-#include "variational/flight/impact_time.hpp"
-
 namespace saltus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Something rests with friction.
-bool has_friction_rows(const Node& node, const Flight& f) {
-  return std::any_of(f.rows.active.begin(), f.rows.active.end(),
-                     [&](int i) { return node.contacts[f.rows.row[i].contact].friction > 0; });
+bool has_friction_rows(const Node& node, const Rows& rows) {
+  return std::any_of(rows.active.begin(), rows.active.end(),
+                     [&](int i) { return node.contacts[rows.row[i].contact].friction > 0; });
 }
 
-bool match_arc(const ModelData& model, const StepOptions& options, double left, Node& node,
-               Flight& f) {
-  const double energy = arc_energy(model, arc_problem(options, left, node, f), f.arc, f.scratch);
-  const double mismatch = std::abs(energy - node.launch.energy);
-  if (node.launch.normal_energy <= mismatch) return false;
-  f.launch.n = node.launch.n;
-  f.launch.energy = node.launch.energy;
-  f.launch.lambda = 0;
-  f.is_launched = true;
-  f.start_v = f.arc.v;
-  if (solve_flight_arc(model, options, left, node, f)) return true;
-  f.is_launched = false;  // no root after all: back to the nodal arc, which is its own guess
-  f.arc.v = f.start_v;
-  solve_flight_arc(model, options, left, node, f);
+bool match_arc(const Scene& scene, double left, const Launch& launch, const Node& node, Flight& f) {
+  ArcWork& work = f.work;
+  const ArcProblem problem = arc_problem(scene, left, node, work);
+  const double energy = arc_energy(scene.model, problem, work.arc, work.scratch);
+  if (launch.normal_energy <= std::abs(energy - launch.energy)) return false;
+  work.line.n = launch.n;
+  work.line.energy = launch.energy;
+  work.line.lambda = 0;
+  work.line.use = LaunchLine::Use::matched;
+  f.start_v = work.arc.v;
+  if (solve(scene, left, node, work)) return true;
+  work.line.use = LaunchLine::Use::none;  // no root: back to the nodal arc, which is its own guess
+  work.arc.v = f.start_v;
+  solve(scene, left, node, work);
   return false;
 }
 
 /// How far the end of the arc just solved, the step's, is from the energy to match; infinity where
 /// there is no number.
-double shadow_mismatch(const ModelData& model, const StepOptions& options, const Node& node,
-                       Flight& f) {
-  if (!measure(model, f.arc.q_end, f.arc.p_end, options.h, *f.meter)) return infinity;
-  return f.meter->energy.shadow - node.launch.energy;
-}
-
-/// A change of the momentum at the node by delta n.
-void kick(const ModelData& model, double delta, Node& node, Flight& f) {
-  node.p += delta * node.launch.n;
-  node.launch.change += delta;
-  f.n = node.launch.n;
-  solve(model.tree, model.packed, node.M, f.n);
-  node.v += delta * f.n;
-  f.arc.v += delta * f.n;
+double shadow_mismatch(const Scene& scene, const Launch& launch, Flight& f) {
+  const Arc& arc = f.work.arc;
+  if (!measure(scene.model, arc.q_end, arc.p_end, scene.options.h, *f.meter)) return infinity;
+  return f.meter->energy.shadow - launch.energy;
 }
 
 /// Secant method on delta. The slope of H at the impact, n.v, is a good first one: the energy that
 /// differs is of order h^2.
-bool match_shadow(const ModelData& model, const StepOptions& options, double left, Node& node,
+bool match_shadow(const Scene& scene, double left, const Launch& launch, const Node& node,
                   Flight& f) {
   constexpr int most_iterations = 8;
-  const double start = shadow_mismatch(model, options, node, f);
-  double slope = node.launch.n.dot(node.v), mismatch = start, total = 0;
+  ArcWork& work = f.work;
+  const double start = shadow_mismatch(scene, launch, f);
+  double slope = launch.n.dot(node.v), mismatch = start;
   // 1e-15: the rounding of the energies that the mismatch is a difference of
   const auto is_rounding = [&](double x) {
     return std::abs(x) <= 1e-15 * (f.meter->energy.kinetic + std::abs(f.meter->energy.potential));
   };
   if (is_rounding(start)) return true;
-  if (!f.rows.active.empty() || !(node.launch.normal_energy > std::abs(start)) || !(slope > 0))
+  if (!work.rows.active.empty() || !(launch.normal_energy > std::abs(start)) || !(slope > 0)) {
     return false;
+  }
+  work.line.n = launch.n;
+  work.line.lambda = 0;
+  work.line.use = LaunchLine::Use::given;
+  f.start_v = work.arc.v;
   for (int k = 0; k < most_iterations; ++k) {
     const double delta = -mismatch / slope;
-    kick(model, delta, node, f);
-    total += delta;
-    const bool solved = solve_flight_arc(model, options, left, node, f);
-    const double after = solved ? shadow_mismatch(model, options, node, f) : infinity;
+    work.line.lambda += delta;
+    work.arc.v += delta * launch.response;
+    const bool solved = solve(scene, left, node, work);
+    const double after = solved ? shadow_mismatch(scene, launch, f) : infinity;
     const bool done = is_rounding(after) || !(std::abs(after) < std::abs(mismatch) / 2);
     slope = (after - mismatch) / delta;
     mismatch = after;
     if (done) break;
   }
   if (is_rounding(mismatch) || std::abs(mismatch) <= 1e-3 * std::abs(start)) return true;
-  kick(model, -total, node, f);
-  solve_flight_arc(model, options, left, node, f);
+  work.line.use = LaunchLine::Use::none;
+  work.arc.v = f.start_v;
+  solve(scene, left, node, work);
   return false;
 }
 
 }  // namespace
 
-bool drop_launch(const Node& node, Flight& f) {
-  if (!f.is_launched) return false;
-  f.is_launched = false;
-  forget_impulses(f.rows);
-  f.arc.v = node.v;
-  return true;
+bool meet(const Scene& scene, double left, const Launch& launch, const Node& node, Flight& f) {
+  if (has_friction_rows(node, f.work.rows)) return false;  // their impulses are all that is sought
+  if (scene.options.law == ImpactLaw::shadow_energy) {
+    return match_shadow(scene, left, launch, node, f);
+  }
+  return match_arc(scene, left, launch, node, f);
 }
 
-bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
-            Flight& f) {
-  node.launch.pending = false;
-  if (has_friction_rows(node, f)) return false;  // their impulses are all that is sought
-  if (options.law == ImpactLaw::shadow_energy) return match_shadow(model, options, left, node, f);
-  return match_arc(model, options, left, node, f);
+void give_up(const Node& node, Flight& f) {
+  f.work.line.use = LaunchLine::Use::none;
+  f.has_missed_energy = true;
+  forget_impulses(f.work.rows);
+  f.work.arc.v = node.v;
 }
 
 }  // namespace saltus

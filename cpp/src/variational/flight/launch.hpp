@@ -14,13 +14,12 @@
 
 namespace saltus {
 
-/// Meets node.launch by the arc over `left`, which is solved without it in flight.arc.
-/// @return false where that was not possible; flight.arc is then as it was.
-bool launch(const ModelData& model, const StepOptions& options, double left, Node& node,
-            Flight& flight);
+/// Meets the launch by the arc over `left`, which is solved without it in flight.work.
+/// @return false where that was not possible; the arc is then as it was.
+bool meet(const Scene& scene, double left, const Launch& launch, const Node& node, Flight& flight);
 
-/// Gives the energy of the launch up where an arc that matches it has no end: the next arc is
-/// solved from the node anew. @return false where flight.arc has no launch to match
-bool drop_launch(const Node& node, Flight& flight);
+/// Gives the energy of a launch up where an arc that matches it has no end: the next arc is solved
+/// from the node anew.
+void give_up(const Node& node, Flight& flight);
 
 }  // namespace saltus

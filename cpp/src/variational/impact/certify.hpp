@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "variational/node/node.hpp"
+#include "variational/impact/impact.hpp"
 
 namespace saltus {
 
 /// In words, of the contacts that took impulses and those that feel them; "" for a single one.
 /// Needs the contact matrix. Allocates: for people who ask.
-std::string certify(const Node& node);
+std::string certify(const ImpactScratch& impact);
 
 }  // namespace saltus

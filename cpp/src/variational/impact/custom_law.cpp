@@ -9,7 +9,8 @@ namespace saltus {
 namespace {
 
 /// The impact as the user's law sees it. Dense, and allocated each time: laws in use are few.
-ImpactProblem problem_of(const ModelData& model, const Node& node) {
+ImpactProblem problem_of(const Scene& scene, const Node& node) {
+  const ModelData& model = scene.model;
   const int m = node.touching;
   ImpactProblem out;
   out.t = node.t;
@@ -25,12 +26,12 @@ ImpactProblem problem_of(const ModelData& model, const Node& node) {
   for (int i = 0; i < m; ++i) {
     const Contact& c = node.contacts[i];
     row.setZero();
-    add(node.trees, 1, c.n, row);
+    add(scene.trees, 1, c.n, row);
     out.N.row(i) = row;
     out.u[i] = c.u;
     out.restitution[i] = c.restitution;
     out.friction[i] = c.friction;
-    out.pairs.push_back(node.pool.number(c.pair));
+    out.pairs.push_back(node.pool.number(c.slot));
   }
   return out;
 }
@@ -48,7 +49,7 @@ void check_answer(const ModelData& model, const Node& node, const ImpactProblem&
     int worst = 0;
     // 1e-6 of the approach: a law in double precision comes to rest no better
     if (u.minCoeff(&worst) >= -1e-6 * problem.u.cwiseAbs().maxCoeff()) return;
-    text << "leaves " << pair_name(model.shapes, node.pool[node.contacts[worst].pair])
+    text << "leaves " << pair_name(model.shapes, node.pool[node.contacts[worst].slot])
          << " approaching with " << u[worst] << " m/s";
   }
   throw StepError(
@@ -58,15 +59,15 @@ void check_answer(const ModelData& model, const Node& node, const ImpactProblem&
 
 }  // namespace
 
-void obey_custom_law(const ModelData& model, const ImpactFunction& law, Node& node) {
-  const ImpactProblem problem = problem_of(model, node);
-  const VecX p = law(problem);
-  check_answer(model, node, problem, p);
+void obey_custom_law(const Scene& scene, Node& node, std::vector<Impulse>& impulses) {
+  const ImpactProblem problem = problem_of(scene, node);
+  const VecX p = scene.options.custom(problem);
+  check_answer(scene.model, node, problem, p);
   // What of the jump lies along the normals is reported as impulses, the shortest there are.
   const MatX along = problem.N.transpose();
   const VecX lambda = along.completeOrthogonalDecomposition().solve(p - problem.p);
   for (int i = 0; i < node.touching; ++i) {
-    if (std::abs(lambda[i]) > 1e-12 * lambda.norm()) node.impulses.push_back({i, lambda[i]});
+    if (std::abs(lambda[i]) > 1e-12 * lambda.norm()) impulses.push_back({i, lambda[i]});
   }
   node.p = p;
 }

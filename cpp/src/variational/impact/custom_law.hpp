@@ -5,9 +5,9 @@
 
 namespace saltus {
 
-/// Writes node.p and node.impulses. Needs the contact matrix.
+/// Asks options.custom: writes node.p and the impulses.
 /// @throws StepError where the law's answer has a wrong length, is not finite, or leaves a contact
 /// approaching; what the law throws.
-void obey_custom_law(const ModelData& model, const ImpactFunction& law, Node& node);
+void obey_custom_law(const Scene& scene, Node& node, std::vector<Impulse>& impulses);
 
 }  // namespace saltus

@@ -8,7 +8,7 @@ namespace saltus {
 namespace {
 
 constexpr int few = 50'000;  ///< some 500 bytes each
-constexpr std::size_t first_slots = 4096;
+constexpr std::size_t first_entries = 4096;
 constexpr int many = 1'000'000;
 
 /// The parts of two shapes are met one after the other.
@@ -19,7 +19,7 @@ bool are_same_shapes(const Pair& x, const Pair& y) {
 }  // namespace
 
 PairPool::PairPool(const ModelData& model) : all_(model.pairs.size() <= few) {
-  if (!all_) table_.assign(first_slots, {0, -1});
+  if (!all_) table_.assign(first_entries, {0, -1});
   for (int k = 0; all_ && k < model.pairs.size(); ++k) add(model, k);
 }
 
@@ -35,28 +35,28 @@ void PairPool::add(const ModelData& model, int number) {
   solid_of_.push_back(parts ? static_cast<int>(solid_.size()) - 1 : -1);
 }
 
-int PairPool::place_of(const ModelData& model, int pair) {
-  if (all_) return pair;
-  const std::size_t slot = slot_of(pair);
-  if (table_[slot].place >= 0) return table_[slot].place;
-  table_[slot] = {pair, size()};
-  add(model, pair);
+int PairPool::slot_of(const ModelData& model, int number) {
+  if (all_) return number;
+  const std::size_t entry = entry_of(number);
+  if (table_[entry].slot >= 0) return table_[entry].slot;
+  table_[entry] = {number, size()};
+  add(model, number);
   if (2 * number_.size() > table_.size()) grow_table();
   return size() - 1;
 }
 
-std::size_t PairPool::slot_of(int pair) const {
+std::size_t PairPool::entry_of(int number) const {
   const std::size_t mask = table_.size() - 1;
-  std::size_t slot = static_cast<unsigned>(pair) * 0x9E3779B97F4A7C15u >> 20 & mask;
-  while (table_[slot].place >= 0 && table_[slot].number != pair) slot = (slot + 1) & mask;
-  return slot;
+  std::size_t entry = static_cast<unsigned>(number) * 0x9E3779B97F4A7C15u >> 20 & mask;
+  while (table_[entry].slot >= 0 && table_[entry].number != number) entry = (entry + 1) & mask;
+  return entry;
 }
 
 void PairPool::grow_table() {
   const std::vector<Entry> before = std::move(table_);
   table_.assign(2 * before.size(), {0, -1});
-  for (const Entry& entry : before) {
-    if (entry.place >= 0) table_[slot_of(entry.number)] = entry;
+  for (const Entry& each : before) {
+    if (each.slot >= 0) table_[entry_of(each.number)] = each;
   }
 }
 
@@ -68,7 +68,7 @@ void PairPool::clear() {
   number_.clear();
   solid_.clear();
   solid_of_.clear();
-  table_.assign(first_slots, {0, -1});
+  table_.assign(first_entries, {0, -1});
 }
 
 }  // namespace saltus

@@ -1,7 +1,7 @@
 // The pairs that a stepper has met, each made once.
 //
-// What a step keeps by pair (contact, held, passed) is kept by its place here. Where the model has
-// few pairs all are made at once, place = number, and a step allocates nothing; of 5e7 only those
+// What a step keeps by pair (contact, held, passed) is kept by its slot here. Where the model has
+// few pairs all are made at once, slot = number, and a step allocates nothing; of 5e7 only those
 // that come near each other are ever made.
 #pragma once
 
@@ -16,16 +16,16 @@ class PairPool {
  public:
   explicit PairPool(const ModelData& model);
 
-  /// The place of a pair, which is made if it is new: then places grow by one.
-  int place_of(const ModelData& model, int pair);
+  /// The slot of a pair, which is made if it is new: then slots grow by one.
+  int slot_of(const ModelData& model, int number);
 
   int size() const { return static_cast<int>(number_.size()); }
-  const Pair& operator[](int place) const { return pair_[place]; }
-  int number(int place) const { return number_[place]; }  ///< in model.pairs
+  const Pair& operator[](int slot) const { return pair_[slot]; }
+  int number(int slot) const { return number_[slot]; }  ///< in model.pairs
   /// Of a pair of parts the two shapes as wholes, which say in one gap that no part is near; the
   /// same for all parts. None where the pair is of wholes.
-  const Pair* solid(int place) const {
-    return solid_of_[place] < 0 ? nullptr : &solid_[solid_of_[place]];
+  const Pair* solid(int slot) const {
+    return solid_of_[slot] < 0 ? nullptr : &solid_[solid_of_[slot]];
   }
 
   /// True where so many have been met that the memory of them is better given back.
@@ -34,19 +34,19 @@ class PairPool {
 
  private:
   struct Entry {
-    int number, place;
+    int number, slot;
   };
 
   void add(const ModelData& model, int number);
-  std::size_t slot_of(int pair) const;
+  std::size_t entry_of(int number) const;
   void grow_table();
 
   bool all_;
   std::deque<Pair> pair_, solid_;  ///< at addresses that stay
-  std::vector<int> number_;        ///< (places)
-  std::vector<int> solid_of_;      ///< (places) index in solid_, or -1
-  /// Open addressing: the place of a number is near its hash, -1 marks a free slot. A power of two
-  /// of slots, half of them free at least. Unused where all are made.
+  std::vector<int> number_;        ///< (slots)
+  std::vector<int> solid_of_;      ///< (slots) index in solid_, or -1
+  /// Open addressing: the entry of a number is near its hash, slot -1 marks a free one. A power
+  /// of two of entries, half of them free at least. Unused where all are made.
   std::vector<Entry> table_;
 };
 

@@ -29,33 +29,55 @@ void tell(const ContactImpulse& impulse, StepReport& report) {
   report.contacts.push_back(impulse);
 }
 
+/// How far an arc or a half kick with these contacts is from Coulomb's law.
+void tell_residual(const ContactBlocks& W, double residual, StepReport& report) {
+  const auto has_friction = [](double mu) { return mu > 0; };
+  if (std::none_of(W.friction.begin(), W.friction.end(), has_friction)) return;
+  report.friction_residual = std::max(report.friction_residual, residual);
+}
+
 }  // namespace
 
-void tell_rows(const Node& node, const Flight& f, StepReport& report) {
-  for (const int i : f.rows.active) {
-    const Row& row = f.rows.row[i];
+void clear(StepReport& report) {
+  report.iterations = report.arcs = report.sustained = 0;
+  report.residual = report.friction_residual = 0;
+  report.impacts.clear();
+  report.impulses.clear();
+  report.contacts.clear();
+  report.settlings.clear();
+  report.certificates.clear();
+}
+
+void tell_rows(const Node& node, const Rows& rows, StepReport& report) {
+  tell_residual(rows.W, rows.residual, report);
+  report.sustained += count_pressed(rows);
+  for (const int i : rows.active) {
+    const Row& row = rows.row[i];
     const Contact& contact = node.contacts[row.contact];
     tell(acted(node, contact, row.p[0], across(contact, row.p)), report);
   }
 }
 
-void tell_residual(const Rows& rows, StepReport& report) {
-  const auto& friction = rows.W.friction;
-  if (std::all_of(friction.begin(), friction.end(), [](double mu) { return mu == 0; })) return;
-  report.friction_residual = std::max(report.friction_residual, rows.residual);
+void tell_launch(const Launch& launch, const Flight& f, StepReport& report) {
+  const LaunchLine& line = f.work.line;
+  if (line.use != LaunchLine::Use::none && line.lambda != 0) {
+    report.impulses[static_cast<std::size_t>(launch.impulse)].lambda += line.lambda;
+  }
+  if (!f.has_missed_energy) return;
+  report.impacts.back().fallback = true;
+  report.impacts.back().law = ImpactLaw::nodal_energy;
 }
 
-void tell_launch(const Flight& f, Node& node, StepReport& report) {
-  double change = node.launch.change;
-  node.launch.change = 0;
-  if (f.is_launched) change += f.launch.lambda;
-  if (change != 0) {
-    report.impulses[static_cast<std::size_t>(node.launch.impulse)].lambda += change;
+void tell_settlings(const PairPool& pool, const Flight& f, StepReport& report) {
+  for (const Settling& each : f.settlings) {
+    report.settlings.push_back({each.t, pool.number(each.pair)});
   }
 }
 
-void tell_closing(const Flight& f, StepReport& report) {
-  for (const ContactImpulse& each : f.closings) tell(each, report);
+void tell_half_kick(const HalfKick& kick, StepReport& report) {
+  if (kick.impulses.empty()) return;
+  tell_residual(kick.W, kick.residual, report);
+  for (const ContactImpulse& each : kick.impulses) tell(each, report);
 }
 
 }  // namespace saltus

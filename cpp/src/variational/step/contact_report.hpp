@@ -1,21 +1,22 @@
-// What holds contacts closed, told as StepReport::contacts; and what the arc after an impact has
-// changed of it.
+// What a step tells: StepReport, by what has just been done.
 #pragma once
 
+#include "variational/arc/finish.hpp"
 #include "variational/flight/flight.hpp"
 
 namespace saltus {
 
-/// Of the arc just flown. Needs the contacts that it started with.
-void tell_rows(const Node& node, const Flight& flight, StepReport& report);
+/// Nothing told, but for fallbacks, which are the whole step's.
+void clear(StepReport& report);
+
+/// What held contacts closed in the arc just flown. Needs the contacts that it started with.
+void tell_rows(const Node& node, const Rows& rows, StepReport& report);
 
 /// What the law changed of the last strong impulse of an impact, by the arc just flown.
-void tell_launch(const Flight& flight, Node& node, StepReport& report);
+void tell_launch(const Launch& launch, const Flight& flight, StepReport& report);
 
-/// How far the arc or the half kick just solved is from Coulomb's law.
-void tell_residual(const Rows& rows, StepReport& report);
+void tell_settlings(const PairPool& pool, const Flight& flight, StepReport& report);
 
-/// Of the closing half kick, flight.closings.
-void tell_closing(const Flight& flight, StepReport& report);
+void tell_half_kick(const HalfKick& kick, StepReport& report);
 
 }  // namespace saltus

@@ -8,53 +8,58 @@
 
 namespace saltus {
 
+std::string Stepper::Impl::name_of(int slot) const {
+  return scene.shared.pair_name(pool.number(slot));
+}
+
 std::string Stepper::Impl::contact_list() const {
   std::vector<std::string> names;
-  for (int i = 0; i < node.touching; ++i)
-    names.push_back(model.pair_name(node.pool.number(node.contacts[i].pair)));
+  for (int i = 0; i < node.touching; ++i) names.push_back(name_of(node.contacts[i].slot));
   return list_names(names);
 }
 
 /// What the arc is held by.
 std::string Stepper::Impl::held_list() const {
   std::vector<std::string> names;
-  for (const int i : flight.rows.active) {
-    names.push_back(model.pair_name(node.pool.number(flight.rows.row[i].place)));
+  for (const int i : flight.work.rows.active) {
+    names.push_back(name_of(flight.work.rows.row[i].slot));
   }
   return names.empty() ? "" : ", held by " + list_names(names);
 }
 
 /// The ball joint that turns farthest in an arc, if it is half a turn or more.
 std::string Stepper::Impl::fast_joint() const {
-  const FastestTurn fastest = fastest_turn(model->tree, node.v, flight.arc.tau);
+  const FastestTurn fastest = fastest_turn(scene.model.tree, node.v, flight.work.arc.tau);
   if (!(fastest.angle > std::numbers::pi)) return {};
-  const int velocity = model->tree.balls[fastest.ball].velocity;
+  const int velocity = scene.model.tree.balls[fastest.ball].velocity;
   std::ostringstream text;
-  for (const JointInfo& joint : model->joints) {
+  for (const JointInfo& joint : scene.model.joints) {
     const auto& own = joint.velocities;
     if (std::find(own.begin(), own.end(), velocity) == own.end()) continue;
     text << "; joint \"" << joint.name << "\" turns by " << fastest.angle << " rad in one arc of "
-         << flight.arc.tau << " s, and can by less than 2 pi";
+         << flight.work.arc.tau << " s, and can by less than 2 pi";
   }
   return text.str();
 }
 
+/// A step that fails: why, and what may help if shorter arcs have not been tried.
+void Stepper::Impl::raise(const std::string& why, const std::string& advice, int count) {
+  cause = why;
+  throw StepError(why + "; " + advice, node.t, flight.work.arc.residual, count);
+}
+
 void Stepper::Impl::fail(FlightOutcome outcome) {
+  if (outcome == FlightOutcome::law_not_met) {
+    fail_law(flight.work.unlawful, flight.work.rows.residual);
+  }
   halves_help = true;
-  std::ostringstream text;
-  const Arc& arc = flight.arc;
+  std::ostringstream text, h;
+  h << "h = " << scene.options.h << " s";
+  const Arc& arc = flight.work.arc;
   switch (outcome) {
     case FlightOutcome::impact_not_located:
-      text << "the time after t = " << node.t << " s at which "
-           << model.pair_name(node.pool.number(flight.closing)) << " closes was not found";
-      break;
-    case FlightOutcome::law_not_met:
-      text << "contact at t = " << node.t
-           << " s: " << model.pair_name(node.pool.number(flight.closing))
-           << (has_friction(node) ? " neither sticks nor slides, it is off Coulomb's law by "
-                                  : " neither opens nor is pressed, it is off the law by ")
-           << flight.rows.residual
-           << " of the largest impulse; a smaller h helps where it turns fast" << fast_joint();
+      text << "the time after t = " << node.t << " s at which " << name_of(flight.closing)
+           << " closes was not found";
       break;
     case FlightOutcome::no_progress:
       text << "contacts at t = " << node.t
@@ -63,80 +68,88 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
     default:
       text << "DEL residual " << arc.residual << " after " << arc.iterations
            << " iterations at t = " << node.t << " s, arc of " << arc.tau << " s" << held_list()
-           << "; a smaller h helps where the motion is fast, h = " << options.h << " s"
            << fast_joint();
   }
-  throw StepError(text.str(), node.t, arc.residual, arc.iterations);
+  raise(text.str(), "a smaller h helps where the motion is fast, " + h.str(), arc.iterations);
 }
 
-/// The error of the step as a whole, and that shorter arcs were no help if they were tried.
-void Stepper::Impl::fail_at_last(const std::exception_ptr& first) const {
-  if (!(longest < options.h)) std::rethrow_exception(first);
+void Stepper::Impl::fail_law(int slot, double residual) {
+  halves_help = true;
+  std::ostringstream text;
+  text << "contact at t = " << node.t << " s: " << name_of(slot)
+       << (has_friction(node) ? " neither sticks nor slides, it is off Coulomb's law by "
+                              : " neither opens nor is pressed, it is off the law by ")
+       << residual << " of the largest impulse" << fast_joint();
+  raise(text.str(), "a smaller h helps where it turns fast", flight.work.arc.iterations);
+}
+
+/// The error of the step as a whole: of the first attempt, and that shorter arcs were no help.
+void Stepper::Impl::fail_at_last(const std::exception_ptr& first, const std::string& why) const {
+  if (!(longest < scene.options.h)) std::rethrow_exception(first);
   try {
     std::rethrow_exception(first);
   } catch (const StepError& error) {
     std::ostringstream text;
-    text << error.what() << "; arcs of " << longest << " s fail as well";
+    text << why << "; arcs of " << longest << " s fail as well";
     throw StepError(text.str(), error.t, error.residual, error.iterations);
   }
 }
 
 void Stepper::Impl::fail_jammed() {
-  set_contact_matrix(*model, node);
-  if (has_friction(node) && can_open(node)) {
+  const int most = scene.options.max_impulses;
+  std::ostringstream text;
+  text << "the impact at t = " << node.t << " s does not end within " << most << " impulses: ";
+  const bool opens = can_open(scene, node, impact);
+  if (has_friction(node) && opens) {
     const auto begin = node.contacts.begin(), end = begin + node.touching;
     const auto fastest =
         std::min_element(begin, end, [](const Contact& a, const Contact& b) { return a.u < b.u; });
-    flight.closing = fastest->pair;
-    fail(FlightOutcome::law_not_met);
+    halves_help = true;
+    text << "with friction " << name_of(fastest->slot) << " keeps approaching, with " << -fastest->u
+         << " m/s before it";
+    raise(text.str(), "more may do (max_impulses), or a restitution of 0", most);
   }
-  std::ostringstream text;
-  text << "the impact at t = " << node.t << " s does not end within " << options.max_impulses
-       << " impulses: "
-       << (can_open(node) ? "more may do (max_impulses) at "
-                          : "no motion opens all of, jammed are ")
+  text << (opens ? "more may do (max_impulses) at " : "no motion opens all of, jammed are ")
        << contact_list();
-  throw JammedError(text.str(), node.t, flight.arc.residual, options.max_impulses);
+  throw JammedError(text.str(), node.t, flight.work.arc.residual, most);
 }
 
-void Stepper::Impl::fail_impacts() const {
+void Stepper::Impl::fail_impacts() {
   std::ostringstream text;
-  text << "more than " << options.max_impacts << " impacts in the step from t = " << last.t
-       << " s, at t = " << node.t << " s between " << contact_list()
-       << "; a smaller h, or a larger max_impacts if this is meant";
-  throw StepError(text.str(), node.t, flight.arc.residual, options.max_impacts);
+  text << "more than " << scene.options.max_impacts << " impacts in the step from t = " << last.t
+       << " s, at t = " << node.t << " s between " << contact_list();
+  raise(text.str(), "a smaller h, or a larger max_impacts if this is meant",
+        scene.options.max_impacts);
 }
 
 void Stepper::Impl::fail_energy(double gain) {
   halves_help = true;
-  std::ostringstream text;
+  std::ostringstream text, h;
   text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
-       << " J, and contacts do no work: its equation was solved by another motion" << held_list()
-       << "; a smaller h helps, h = " << options.h << " s";
-  throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
+       << " J, and contacts do no work: its equation was solved by another motion" << held_list();
+  h << "a smaller h helps, h = " << scene.options.h << " s";
+  raise(text.str(), h.str(), flight.work.arc.iterations);
 }
 
 void Stepper::Impl::fail_sinking(const Contact& contact) {
   halves_help = true;
-  std::ostringstream text;
-  text << model.pair_name(node.pool.number(contact.pair)) << " overlap by " << -contact.phi
-       << " m where the arc up to t = " << node.t << " s ends; a smaller h helps, h = " << options.h
-       << " s";
-  throw StepError(text.str(), node.t, flight.arc.residual, flight.arc.iterations);
+  std::ostringstream text, h;
+  text << name_of(contact.slot) << " overlap by " << -contact.phi
+       << " m where the arc up to t = " << node.t << " s ends";
+  h << "a smaller h helps, h = " << scene.options.h << " s";
+  raise(text.str(), h.str(), flight.work.arc.iterations);
 }
 
 void Stepper::Impl::fail_arcs() {
   halves_help = true;
   std::ostringstream text;
   text << report.arcs << " arcs but " << report.impacts.size()
-       << " impacts in the step from t = " << last.t << " s, the last arc of " << flight.arc.tau
-       << " s at t = " << node.t << " s";
+       << " impacts in the step from t = " << last.t << " s, the last arc of "
+       << flight.work.arc.tau << " s at t = " << node.t << " s";
   if (flight.closing >= 0) {
-    text << "; sought last was when " << model.pair_name(node.pool.number(flight.closing))
-         << " closes";
+    text << "; sought last was when " << name_of(flight.closing) << " closes";
   }
-  text << "; a smaller h or a slightly other start may pass by";
-  throw StepError(text.str(), node.t, flight.arc.residual, report.arcs);
+  raise(text.str(), "a smaller h or a slightly other start may pass by", report.arcs);
 }
 
 }  // namespace saltus

@@ -5,8 +5,6 @@
 #include <sstream>
 #include <utility>
 
-#include "variational/flight/finish.hpp"
-#include "variational/flight/impact_time.hpp"
 #include "variational/step/contact_report.hpp"
 #include "variational/terms/check_options.hpp"
 
@@ -18,16 +16,12 @@ namespace {
 /// would take the rounding of gaps out within no time.
 constexpr double no_duration = 1e-12;
 
-/// Arcs that end without an impact: gaps that graze, a few a step.
-constexpr int most_arcs_idle = 100;
-
 /// Arcs of attempts at one step that failed: with more it is the arcs that are many, not long.
 constexpr int most_arcs_spent = 256;
 
-/// Touches (1e-10 of the shapes' size) that are an overlap: what a state written with 8 digits
-/// loses is none.
+/// Touches (1e-10 of the shapes' size) that are an overlap at the start: what a state written with
+/// 8 digits loses is none.
 constexpr double overlap_touches = 100;
-constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
 
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
@@ -52,8 +46,8 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
 const StepReport& Stepper::report() const { return impl_->report; }
-const Model& Stepper::model() const { return impl_->model; }
-const StepOptions& Stepper::options() const { return impl_->options; }
+const Model& Stepper::model() const { return impl_->scene.shared; }
+const StepOptions& Stepper::options() const { return impl_->scene.options; }
 
 State Stepper::advance(const State& state) {
   State next = state;
@@ -73,8 +67,9 @@ void Stepper::Impl::step(State& state) {
   const bool is_own = last_is_valid && state == last;  // where a step of ours ended
   bool has_guesses = is_own;
   std::exception_ptr first;
+  std::string why;
   int arcs = 0, iterations = 0;
-  longest = options.h;
+  longest = scene.options.h;
   for (int halvings = 0;;) {
     halves_help = false;
     try {
@@ -83,65 +78,57 @@ void Stepper::Impl::step(State& state) {
       if (halvings > 0) report.fallbacks.push_back({t, longest, Rung::halved});
       return;
     } catch (const StepError&) {
-      if (!first) first = std::current_exception();
+      if (!first) {
+        first = std::current_exception();
+        why = cause;
+      }
       arcs += report.arcs;
       iterations += report.iterations;
       if (!halves_help || arcs > most_arcs_spent) break;
     }
     if (std::exchange(has_guesses, false)) continue;
-    if (halvings == options.max_halvings) break;
+    if (halvings == scene.options.max_halvings) break;
     ++halvings;
     longest /= 2;
   }
-  fail_at_last(first);
+  fail_at_last(first, why);
 }
 
 // Fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step_once(State& state, bool is_own) {
-  report.iterations = report.arcs = report.sustained = 0;
-  report.residual = report.friction_residual = 0;
-  report.impacts.clear();
-  report.impulses.clear();
-  report.contacts.clear();
-  report.settlings.clear();
-  report.certificates.clear();
-  flight.settlings.clear();
-  if (!last_is_valid || !(state == last) || node.pool.is_full()) start(state, is_own);
+  clear(report);
+  if (!last_is_valid || !(state == last) || pool.is_full()) start(state, is_own);
   last_is_valid = false;  // until this step is done
-  const double t_start = state.t, h = options.h;
+  const double t_start = state.t, h = scene.options.h;
+  const Launch* launch = has_approach(node) ? collide() : nullptr;
   for (double left = h; left > 0;) {
-    fly_one_arc(std::min(left, longest));
-    left = flight.arc.tau < left ? left - flight.arc.tau : 0;
-    if (!flight.rows.active.empty() && left < no_duration * h) left = 0;
-    arrive(t_start + (h - left));
+    fly_one_arc(std::min(left, longest), launch);
+    left = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
+    if (!flight.work.rows.active.empty() && left < no_duration * h) left = 0;
+    end_arc(t_start + (h - left));
+    launch = has_approach(node) ? collide() : nullptr;
   }
-  end_step();
+  end_step(launch);
   state = last;
 }
 
 void Stepper::Impl::start(const State& state, bool is_own) {
-  const VecX q = model.checked_q(state.q, "state.q");
-  check_vector(state.p, model.n_v(), "state.p", "velocities");
+  const VecX q = scene.shared.checked_q(state.q, "state.q");
+  check_vector(state.p, scene.shared.n_v(), "state.p", "velocities");
   if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
   last_is_valid = false;
   last = state;
   last.q = q;
-  flight.history.clear();
-  flight.has_rate = false;
-  node.launch.pending = false;
-  node.launch.change = 0;
+  saltus::forget(memory);
   start_anew(node.broad);
   start_anew(flight.broad);
-  if (node.pool.is_full()) forget_pairs(node);
-  forget_memory(flight.rows);
-  node.t = state.t;
-  node.q = q;
-  node.p = state.p;
-  if (!start_from_momenta(*model, node)) fail(FlightOutcome::not_converged);
-  place_node(*model, node);
-  if (!find_contacts(*model, options, node)) fail(FlightOutcome::not_converged);
+  if (pool.is_full()) forget_pairs(node);
+  place_node(scene, state.t, q, state.p, node);
+  if (scene.model.pairs.empty()) place_frames(scene, node);  // for its velocity
+  if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) {
+    fail(FlightOutcome::not_converged);
+  }
   if (!is_own) check_overlap();
-  if (impact_pending(node)) arrive(state.t);
 }
 
 void Stepper::Impl::check_overlap() const {
@@ -149,11 +136,9 @@ void Stepper::Impl::check_overlap() const {
   int found = 0;
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
-    if (c.phi >= -overlap_touches * node.pool[c.pair].touch) continue;
-    if (++found <= 5) {
-      text << (found > 1 ? ", " : "") << model.pair_name(node.pool.number(c.pair)) << " by "
-           << -c.phi << " m";
-    }
+    if (c.phi >= -overlap_touches * pool[c.slot].touch) continue;
+    if (++found <= 5)
+      text << (found > 1 ? ", " : "") << name_of(c.slot) << " by " << -c.phi << " m";
   }
   if (found == 0) return;
   if (found > 5) text << " and " << found - 5 << " pairs more";
@@ -162,116 +147,69 @@ void Stepper::Impl::check_overlap() const {
                    "collisions");
 }
 
-void Stepper::Impl::fly_one_arc(double left) {
-  bool fallback = false;
-  const FlightOutcome outcome = fly(*model, options, left, node, flight, fallback);
-  report.iterations += flight.iterations;
-  flight.iterations = 0;
-  report.residual = std::max(report.residual, flight.arc.residual);
+void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
+  const FlightOutcome outcome = fly(scene, left, launch, node, memory, flight);
+  const ArcWork& work = flight.work;
+  report.iterations += std::exchange(flight.work.iterations, 0);
+  report.residual = std::max(report.residual, work.arc.residual);
   if (outcome != FlightOutcome::arrived) fail(outcome);
-  for (const Settling& each : flight.settlings) {
-    report.settlings.push_back({each.t, node.pool.number(each.pair)});
-  }
-  flight.settlings.clear();
-  if (fallback && !report.impacts.empty()) {
-    report.impacts.back().fallback = true;
-    report.impacts.back().law = ImpactLaw::nodal_energy;
-  }
+  note_start();
   ++report.arcs;
-  tell_launch(flight, node, report);
-  flight.history.add(node.t + flight.arc.tau / 2, flight.arc.v);
-  deepest = 0;
-  for (int i = 0; i < node.touching; ++i) deepest = std::min(deepest, node.contacts[i].phi);
-  if (flight.rows.active.empty()) return;
-  tell_residual(flight.rows, report);
-  tell_rows(node, flight, report);
-  report.sustained += count_pressed(flight.rows);
-  kinetic = 0.5 * node.p.dot(node.v);
-  energy = node_energy(*model, node);
+  remember(work.arc, node.t, work.rows, memory);
+  tell_settlings(pool, flight, report);
+  if (launch != nullptr) tell_launch(*launch, flight, report);
+  if (!work.rows.active.empty()) tell_rows(node, work.rows, report);
 }
 
-bool Stepper::Impl::is_last_attempt() const {
-  return longest <= std::ldexp(options.h, -options.max_halvings);
+// Ends the arc at a node.
+void Stepper::Impl::end_arc(double t) {
+  if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
+  if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
+  check_energy();
+  check_gaps();
+  tell_half_kick(kick, report);
+  if (!has_approach(node)) check_idle_arcs();
 }
 
-/// Contacts do no work. An arc that they hold and that gains energy is another root of the arc's
-/// equation than the motion. Of 2062 arcs of fast chains the wrong roots had gained .86 of the
-/// kinetic energy and more, and less than 1 % of the right ones swung by .3. As long as shorter
-/// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
-void Stepper::Impl::check_energy() {
-  if (flight.rows.active.empty() || node.launch.pending) return;
-  const double most = is_last_attempt() ? 0.3 : 0.02;
-  // slower is rest: what a step's gravity gives, and what the rounding of gaps does
-  const double slow = options.h * model->mass.gravity.norm() + node.most_touch / options.h;
-  const double least = 0.5 * node.total_mass * slow * slow;
-  const double gain = node_energy(*model, node) - energy;
-  if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
-}
-
-/// No arc ends with bodies deeper in each other than it started. Where parts come to face each
-/// other that overlap already no shorter arc helps: that is an error where anybody can see it.
-void Stepper::Impl::check_gaps() {
-  const double most = is_last_attempt() ? visible_touches : overlap_touches;
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.phi < deepest - most * node.pool[c.pair].touch) fail_sinking(c);
-  }
-}
-
-// Ends the arc at a node, and resolves the impact there if there is one.
-void Stepper::Impl::arrive(double t) {
-  if (t > node.t || report.arcs > 0) {
-    if (!finish(*model, options, t, flight, node)) fail(FlightOutcome::not_converged);
-    check_energy();
-    check_gaps();
-    tell_closing(flight, report);
-    tell_residual(flight.rows, report);
-    if (!(flight.rows.residual <= large_residual)) {
-      const Rows& rows = flight.rows;
-      flight.closing = rows.closing[most_lawless(rows.W, rows.u, rows.p)]->pair;
-      fail(FlightOutcome::law_not_met);
-    }
-  }
-  const int impacts = static_cast<int>(report.impacts.size());
-  if (!impact_pending(node)) {  // gaps that graze 0 may stop arc after arc where none closes
-    const double meant = options.h / longest + std::min(options.max_impacts, most_arcs_idle);
-    if (report.arcs - impacts > meant) fail_arcs();
-    return;
-  }
-  if (impacts == options.max_impacts) fail_impacts();
-  if (!resolve_node_impact(*model, options, conserved_energy(), node, report)) fail_jammed();
-  flight.history.clear();
-  forget_memory(flight.rows);
+// Resolves the impact at the node. @return what the next arc has to meet, or nullptr
+const Launch* Stepper::Impl::collide() {
+  if (static_cast<int>(report.impacts.size()) == scene.options.max_impacts) fail_impacts();
+  const Launch* launch = nullptr;
+  if (!resolve_impact_at(scene, conserved_energy(), node, impact, report, launch)) fail_jammed();
+  forget_velocities(memory);
+  return launch;
 }
 
 // What the law conserves, at the node before the impact.
 double Stepper::Impl::conserved_energy() {
-  if (options.law == ImpactLaw::shadow_energy) {
-    if (report.impacts.empty()) {  // what is left of it after the impacts of this step
-      if (!measure(*model, last.q, last.p, options.h, *flight.meter)) {
-        fail(FlightOutcome::not_converged);
-      }
-      node.launch.energy = flight.meter->energy.shadow;
+  const ImpactLaw law = scene.options.law;
+  if (law == ImpactLaw::shadow_energy) {
+    // after the first impact of a step what is left of it
+    if (!report.impacts.empty()) return impact.launch.energy;
+    if (!measure(scene.model, last.q, last.p, scene.options.h, *flight.meter)) {
+      fail(FlightOutcome::not_converged);
     }
-    return node.launch.energy;
+    return flight.meter->energy.shadow;
   }
-  if (options.law != ImpactLaw::discrete_energy && options.law != ImpactLaw::compensated) return 0;
+  if (law != ImpactLaw::discrete_energy && law != ImpactLaw::compensated) return 0;
+  ArcWork& work = flight.work;
+  work.line.use = LaunchLine::Use::none;
   if (report.arcs == 0) {  // at the start: an arc of no duration
-    flight.rows.active.clear();
-    flight.arc.v = node.v;
-    if (!solve_flight_arc(*model, options, 0, node, flight)) fail(FlightOutcome::not_converged);
+    work.rows.active.clear();
+    work.arc.v = node.v;
+    if (!solve(scene, 0, node, work)) fail(FlightOutcome::not_converged);
   }
-  const ArcProblem problem{flight.arc.q_start, node.p, flight.arc.tau, nullptr,
-                           whole_step(options)};
-  return arc_energy(*model, problem, flight.arc, flight.scratch);
+  const Arc& arc = work.arc;
+  const ArcProblem problem{arc.q_start, node.p, arc.tau, nullptr, scene.whole_step()};
+  return arc_energy(scene.model, problem, arc, work.scratch);
 }
 
-// A launch that is pending at the end of the step is an arc of no duration: H(q, p+) = E_d.
-void Stepper::Impl::end_step() {
-  if (node.launch.pending) {
-    fly_one_arc(0);
-    node.p = flight.arc.p_end;
-    node.v = flight.arc.v;
+// A launch that is left at the end of the step is an arc of no duration: H(q, p+) = E_d.
+void Stepper::Impl::end_step(const Launch* launch) {
+  if (launch != nullptr) {
+    fly_one_arc(0, launch);
+    node.p = flight.work.arc.p_end;
+    node.v = flight.work.arc.v;
   }
   last.t = node.t;
   last.q = node.q;

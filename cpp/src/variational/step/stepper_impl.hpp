@@ -1,22 +1,26 @@
-// What a Stepper is made of, for stepper.cpp and step_errors.cpp.
+// What a Stepper is made of, for stepper.cpp, acceptance.cpp and step_errors.cpp.
 #pragma once
 
 #include <exception>
 #include <string>
 
 #include "saltus/variational/stepper.hpp"
+#include "variational/arc/finish.hpp"
 #include "variational/flight/flight.hpp"
 
 namespace saltus {
 
 struct Stepper::Impl {
   Impl(const Model& with, const StepOptions& with_options)
-      : model(with_options.collisions ? with : with.without_collisions()),
-        options(with_options),
-        node(*model),
-        flight(*model, options, node.friction.any) {
-    last.q.setZero(model.n_q());
-    last.p.setZero(model.n_v());
+      : scene(with, with_options),
+        pool(scene.model),
+        node(scene, pool),
+        memory(scene.model.tree.n_v, pool.size()),
+        flight(scene),
+        kick(scene),
+        impact(scene) {
+    last.q.setZero(scene.model.tree.n_q);
+    last.p.setZero(scene.model.tree.n_v);
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
     report.settlings.reserve(64);
@@ -27,36 +31,49 @@ struct Stepper::Impl {
   void step_once(State& state, bool is_own);
   void start(const State& state, bool is_own);
   void check_overlap() const;
-  void fly_one_arc(double left);
-  void arrive(double t);
+  void fly_one_arc(double left, const Launch* launch);
+  void end_arc(double t);
+  const Launch* collide();
+  double conserved_energy();
+  void end_step(const Launch* launch);
+
+  // acceptance.cpp
   bool is_last_attempt() const;
+  void note_start();
   void check_energy();
   void check_gaps();
-  double conserved_energy();
-  void end_step();
+  void check_idle_arcs();
+
   [[noreturn]] void fail(FlightOutcome outcome);
-  [[noreturn]] void fail_at_last(const std::exception_ptr& first) const;
+  [[noreturn]] void raise(const std::string& why, const std::string& advice, int count);
+  [[noreturn]] void fail_at_last(const std::exception_ptr& first, const std::string& why) const;
+  [[noreturn]] void fail_law(int slot, double residual);
   [[noreturn]] void fail_jammed();
-  [[noreturn]] void fail_impacts() const;
+  [[noreturn]] void fail_impacts();
   [[noreturn]] void fail_arcs();
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
+  std::string name_of(int slot) const;
   std::string contact_list() const;
   std::string held_list() const;
   std::string fast_joint() const;
 
-  Model model;
-  StepOptions options;
+  Scene scene;
+  PairPool pool;
   Node node;
+  Memory memory;
   Flight flight;
+  HalfKick kick;
+  ImpactScratch impact;
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
   double longest = 0;        // [s] no arc of this attempt may be longer
   bool halves_help = false;  // what failed may not fail with shorter arcs
-  // where the arc started
+  std::string cause;         // of the last failure
+  // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
-  double kinetic = 0, energy = 0;  // [J] if contacts held it
+  double kinetic = 0, energy = 0;  // [J] if contacts hold the arc
 };
 
 }  // namespace saltus

@@ -1,16 +1,13 @@
-#include "variational/flight/row_blocks.hpp"
+#include "variational/arc/row_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "saltus/collision/slip.hpp"
-#include "variational/flight/impact_time.hpp"
 
 namespace saltus {
 namespace {
-
-int rates(const Contact& c) { return c.friction > 0 ? 3 : 1; }
 
 /// Tangential rates in the middle of the arc, where rolling has its slip: T v.
 void set_sliding(const ModelData& model, const Contact& c, const Arc& arc, Row& row, Vec3& u,
@@ -39,12 +36,13 @@ void set_chord(const ModelData& model, const Gap& g, double tau, Row& row, Vec3&
 
 bool is_corner(const Row& row) { return row.is_frozen && !row.pair->inward.empty(); }
 
-/// Rates of the active rows at flight.arc.v, and their gradients by the configuration they are of.
-/// Needs the poses in the arc's middle.
-void set_rates(const ModelData& model, const Node& node, Flight& f) {
-  Rows& rows = f.rows;
-  ArcScratch& s = f.scratch;
-  integrate(model.tree, node.q, f.arc.tau, f.arc.v, s.q);
+/// Rates of the active rows at arc.v, and their gradients by the configuration they are of. Needs
+/// the poses in the arc's middle.
+void set_rates(const ModelData& model, const Node& node, ArcWork& work) {
+  Rows& rows = work.rows;
+  ArcScratch& s = work.scratch;
+  const double tau = work.arc.tau;
+  integrate(model.tree, node.q, tau, work.arc.v, s.q);
   place_end(model, s.q, s);
   rows.u.resize(rows.active.size());
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
@@ -53,26 +51,27 @@ void set_rates(const ModelData& model, const Node& node, Flight& f) {
     const bool slides = c.friction > 0;
     Vec3& u = rows.u[i];
     u.setZero();
-    if (slides && !is_corner(row)) set_sliding(model, c, f.arc, row, u, s);
+    if (slides && !is_corner(row)) set_sliding(model, c, work.arc, row, u, s);
     const Gap g = pair_gap_at_end(model, row.watched(), s);
     row.rate[0].setZero();
     add_gap_gradient(model.tree, s.kin_end, row.watched(), g, row.rate[0]);
-    u[0] = (g.phi - row.target) / f.arc.tau;
-    if (slides && is_corner(row)) set_chord(model, g, f.arc.tau, row, u, s);
+    u[0] = (g.phi - row.target) / tau;
+    if (slides && is_corner(row)) set_chord(model, g, tau, row, u, s);
   }
 }
 
 /// Rows and columns of the linearised arc, without what the launch takes up.
-void linearize(const ModelData& model, const Node& node, Flight& f, Row& row) {
-  const Contact& c = node.contacts[row.contact];
+void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
+  const ModelData& model = scene.model;
+  ArcScratch& s = work.scratch;
   const bool is_chord = is_corner(row);
-  for (int k = 0; k < rates(c); ++k) {
-    if (k == 0 || is_chord) pull_back_end(model.packed, f.scratch.J, row.rate[k]);
+  for (int k = 0; k < c.rates(); ++k) {
+    if (k == 0 || is_chord) pull_back_end(model.packed, s.J, row.rate[k]);
     VecX& column = row.column[k];
     column.setZero();
-    add(node.trees, 1, k == 0 ? c.n : c.t[k - 1], column);
-    solve(model.tree, model.packed, f.scratch.J, column);
-    row.by_launch[k] = f.is_launched ? take_out_line(f.launch, column) : 0;
+    add(scene.trees, 1, c.row(k), column);
+    solve(model.tree, model.packed, s.J, column);
+    row.by_launch[k] = is_matched(&work.line) ? take_out_line(work.line, column) : 0;
   }
 }
 
@@ -84,6 +83,7 @@ Mat3 block_of(const Row& at, int at_rates, const Row& by, int by_rates) {
   return block;
 }
 
+/// A launch couples all rows.
 void set_blocks(const Node& node, bool is_launched, Rows& rows) {
   ContactBlocks& W = rows.W;
   const int m = static_cast<int>(rows.active.size());
@@ -96,7 +96,7 @@ void set_blocks(const Node& node, bool is_launched, Rows& rows) {
       const Contact& other = node.contacts[at.contact];
       if (!is_launched && !share_a_tree(other.n, c.n)) continue;
       W.contact.push_back(i);
-      W.block.push_back(block_of(at, rates(other), by, rates(c)));
+      W.block.push_back(block_of(at, other.rates(), by, c.rates()));
       if (i == j) W.own.push_back((W.block.back() + W.block.back().transpose()) / 2);
     }
   }
@@ -104,65 +104,63 @@ void set_blocks(const Node& node, bool is_launched, Rows& rows) {
 }
 
 /// momentum and size: the node's with all impulses.
-void add_impulses(const Node& node, Rows& rows) {
+void add_impulses(const Scene& scene, const Node& node, Rows& rows) {
   rows.momentum = node.p;
   rows.size = node.p.cwiseAbs();
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     const Contact& c = node.contacts[active_row(rows, i).contact];
-    for (int k = 0; k < rates(c); ++k) {
-      const ContactVector& force = k == 0 ? c.n : c.t[k - 1];
-      add(node.trees, rows.p[i][k], force, rows.momentum);
-      add_sizes(node.trees, rows.p[i][k], force, rows.size);
+    for (int k = 0; k < c.rates(); ++k) {
+      add(scene.trees, rows.p[i][k], c.row(k), rows.momentum);
+      add_sizes(scene.trees, rows.p[i][k], c.row(k), rows.size);
     }
   }
 }
 
 }  // namespace
 
-Lawlessness set_row_rates(const ModelData& model, const StepOptions& options, const Node& node,
-                          Flight& f) {
-  Rows& rows = f.rows;
-  add_impulses(node, rows);
-  const ArcProblem problem = held_arc_problem(options, f.arc.tau, node, f);
-  const double momentum = momentum_residual(model, problem, f.arc.v, f.scratch);
-  Lawlessness out{momentum, momentum};
-  if (std::isfinite(momentum)) {  // forces cancel, their rounding does not
+Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
+  Rows& rows = work.rows;
+  Arc& arc = work.arc;
+  add_impulses(scene, node, rows);
+  const ArcProblem problem = arc_problem(scene, arc.tau, node, work);
+  arc.residual = momentum_residual(scene.model, problem, arc.v, work.scratch);
+  if (std::isfinite(arc.residual)) {  // forces cancel, their rounding does not
     constexpr double tiny = std::numeric_limits<double>::min();
-    const auto size = f.scratch.scale.array() + rows.size.array() + tiny;
-    const double part = (f.scratch.r.array().abs() / size).maxCoeff();
-    out.residual = out.excess = std::max(part, line_residual(model, problem, f.arc.v, f.scratch));
+    const auto size = work.scratch.scale.array() + rows.size.array() + tiny;
+    arc.residual = std::max((work.scratch.r.array().abs() / size).maxCoeff(),
+                            line_residual(scene.model, problem, arc.v, work.scratch));
   }
-  f.arc.residual = out.residual;
-  set_rates(model, node, f);
+  set_rates(scene.model, node, work);
+  const Lawlessness out{arc.residual, arc.residual};
   if (rows.W.size() != static_cast<int>(rows.active.size())) return out;
   const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
   return {std::max(out.residual, law.residual), std::max(out.excess, law.excess)};
 }
 
-bool set_row_blocks(const ModelData& model, const StepOptions& options, const Node& node,
-                    Flight& f) {
-  ArcScratch& s = f.scratch;
-  Rows& rows = f.rows;
+bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
+  ArcScratch& s = work.scratch;
+  Rows& rows = work.rows;
+  Arc& arc = work.arc;
   set_second_partials(model, s);
-  if (!factorize(model.tree, model.packed, s.w, f.arc.tau, s.J)) return false;
+  if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return false;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
-  if (f.is_launched) {
-    take_out_line(model, held_arc_problem(options, f.arc.tau, node, f), f.arc.v, s);
-  }
-  f.arc.v += s.dv;
-  if (!f.arc.v.allFinite()) return false;
-  set_rates(model, node, f);
+  const bool is_launched = is_matched(&work.line);
+  if (is_launched) take_out_line(model, arc_problem(scene, arc.tau, node, work), arc.v, s);
+  arc.v += s.dv;
+  if (!arc.v.allFinite()) return false;
+  set_rates(model, node, work);
   clear(rows.W);
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     Row& row = active_row(rows, i);
     const Contact& c = node.contacts[row.contact];
-    linearize(model, node, f, row);
+    linearize(scene, c, work, row);
     rows.W.friction.push_back(c.friction);
     // a hundredth of what touches is closed, over the arc
-    rows.W.rest.push_back(std::max(c.epsilon_u, 1e-2 * row.pair->touch / f.arc.tau));
+    rows.W.rest.push_back(std::max(c.epsilon_u, 1e-2 * row.pair->touch / arc.tau));
   }
-  set_blocks(node, f.is_launched, rows);
+  set_blocks(node, is_launched, rows);
   return true;
 }
 

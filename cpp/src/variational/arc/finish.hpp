@@ -10,14 +10,29 @@
 // arc.
 #pragma once
 
-#include "variational/flight/flight.hpp"
+#include "variational/arc/solve.hpp"
 
 namespace saltus {
 
-/// Puts the node at the end of flight.arc, at time t. Writes q, p, v, contacts, and the impulses of
-/// the closing half kick, flight.closings.
+/// The closing half kick. Written by `finish`.
+struct HalfKick {
+  explicit HalfKick(const Scene& scene);
+
+  std::vector<ContactImpulse> impulses;
+  double residual = 0;  ///< of the law
+  int unlawful = -1;    ///< slot of the pair that it was least met by
+
+  // scratch
+  std::vector<Contact> own;        ///< a pool: what the arc held and is no contact of the node
+  std::vector<Contact*> contacts;  ///< all that share it
+  Neighbours neighbours;
+  ContactBlocks W;
+  std::vector<Vec3> u, p;
+  PileScratch pile;
+};
+
+/// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts.
 /// @return false where the mass matrix is singular.
-bool finish(const ModelData& model, const StepOptions& options, double t, Flight& flight,
-            Node& node);
+bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfKick& kick);
 
 }  // namespace saltus

@@ -1,4 +1,4 @@
-// First guess of an arc's velocity: polynomial through the arcs before it.
+// Memory: what the arcs before say of the next one. Guesses only: no step needs it.
 //
 // The velocities of the last arcs, at their middle times, are values of one smooth function until
 // an impact; up to four of them are extrapolated (Lagrange form), which leaves an error of O(h^4).
@@ -6,8 +6,9 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
-#include "saltus/spatial/spatial.hpp"
+#include "variational/arc/rows.hpp"
 
 namespace saltus {
 
@@ -57,5 +58,33 @@ class GuessHistory {
   int newest_ = 0;
   int count_ = 0;
 };
+
+/// Written by this file, and `rate` by the flight that ends where a gap closes.
+struct Memory {
+  Memory(int n_v, int pool) : velocities(n_v), impulses(static_cast<std::size_t>(pool)) {
+    rate.setZero(n_v);
+  }
+
+  GuessHistory velocities;
+  bool has_rate = false;                ///< the arc ended where a gap closed:
+  VecX rate;                            ///< (n_v) its dv/dtau, the acceleration there
+  std::vector<ImpulseMemory> impulses;  ///< (pool) of rows
+  int arcs = 0;                         ///< numbers them
+};
+
+/// Of the arc from t on that has been flown, with its rows.
+void remember(const Arc& arc, double t, const Rows& rows, Memory& memory);
+
+/// After an impact velocities and impulses are others, but the acceleration goes on, nearly.
+inline void forget_velocities(Memory& memory) {
+  memory.velocities.clear();
+  ++memory.arcs;
+}
+
+/// No arc of before is a guess.
+inline void forget(Memory& memory) {
+  forget_velocities(memory);
+  memory.has_rate = false;
+}
 
 }  // namespace saltus

@@ -1,11 +1,10 @@
-#include "variational/flight/held_arc.hpp"
+#include "variational/arc/solve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "variational/flight/impact_time.hpp"
-#include "variational/flight/row_blocks.hpp"
+#include "variational/arc/row_blocks.hpp"
 
 namespace saltus {
 namespace {
@@ -39,35 +38,35 @@ void give_impulses(Rows& rows) {
 }
 
 /// What a change of the impulses does to the arc's velocity, by the linearised arc.
-void add_change(Flight& f) {
-  Rows& rows = f.rows;
+void add_change(ArcWork& work) {
+  Rows& rows = work.rows;
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     const Vec3 dp = rows.p[i] - rows.before[i];
     const Row& row = active_row(rows, i);
-    f.arc.v += dp[0] * row.column[0];
-    if (rows.W.friction[i] > 0) f.arc.v += dp[1] * row.column[1] + dp[2] * row.column[2];
-    if (f.is_launched) f.launch.lambda += row.by_launch.dot(dp);
+    work.arc.v += dp[0] * row.column[0];
+    if (rows.W.friction[i] > 0) work.arc.v += dp[1] * row.column[1] + dp[2] * row.column[2];
+    if (is_matched(&work.line)) work.line.lambda += row.by_launch.dot(dp);
   }
 }
 
-bool solve_rounds(const ModelData& model, const StepOptions& options, double tau, const Node& node,
-                  Flight& f) {
-  Rows& rows = f.rows;
+bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work) {
+  Rows& rows = work.rows;
+  Arc& arc = work.arc;
   take_impulses(tau, rows);
-  f.arc.tau = tau;
+  arc.tau = tau;
   bool is_solved = false;  // that is, the impulses are lawful for the v that belongs to them
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0, idle = 0;; ++round) {
-    f.arc.iterations = round;
-    const Lawlessness now = set_row_rates(model, options, node, f);
+    arc.iterations = round;
+    const Lawlessness now = set_row_rates(scene, node, work);
     rows.residual = now.least();
     const bool ends = round == most_rounds || idle == most_idle;
-    const bool meets_arc = f.arc.residual <= most_residual;
+    const bool meets_arc = arc.residual <= most_residual;
     if (meets_arc && ends && rows.residual <= large_residual) break;
     if (meets_arc && is_solved && is_lawful(now, before, rows.active.size())) break;
-    if (ends || !std::isfinite(now.residual) || !set_row_blocks(model, options, node, f)) {
+    if (ends || !std::isfinite(now.residual) || !set_row_blocks(scene, node, work)) {
       const int worst = most_lawless(rows.W, rows.u, rows.p);
-      f.closing = active_row(rows, static_cast<std::size_t>(worst)).place;
+      work.unlawful = active_row(rows, static_cast<std::size_t>(worst)).slot;
       return false;
     }
     const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
@@ -77,22 +76,43 @@ bool solve_rounds(const ModelData& model, const StepOptions& options, double tau
     if (is_solved) continue;
     rows.before = rows.p;
     settle_for_sure(rows.W, rows.pile, rows.u, rows.p, 1e-4);  // the next round finds the rest
-    add_change(f);
+    add_change(work);
   }
-  finish_arc(model, held_arc_problem(options, tau, node, f), f.arc, f.scratch);
+  finish_arc(scene.model, arc_problem(scene, tau, node, work), arc, work.scratch);
   give_impulses(rows);
   return true;
 }
 
 }  // namespace
 
-bool solve_held_arc(const ModelData& model, const StepOptions& options, double tau,
-                    const Node& node, Flight& f) {
-  if (solve_rounds(model, options, tau, node, f)) return true;
-  forget_impulses(f.rows);
-  f.launch.lambda = 0;
-  f.arc.v = node.v;
-  return solve_rounds(model, options, tau, node, f);
+ArcWork::ArcWork(const Scene& scene) : rows(scene), scratch(scene.model, scene.options.law) {
+  const Tree& tree = scene.model.tree;
+  for (VecX* x : {&arc.q_start, &arc.q_end}) x->setZero(tree.n_q);
+  for (VecX* x : {&arc.v, &arc.p_end, &line.n, &line.row, &line.column}) x->setZero(tree.n_v);
+}
+
+ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork& work) {
+  const bool has_line = work.line.use != LaunchLine::Use::none;
+  const VecX& p = work.rows.active.empty() ? node.p : work.rows.momentum;
+  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step()};
+}
+
+bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {
+  if (work.rows.active.empty()) {
+    const bool converged = solve_arc(scene.model, arc_problem(scene, tau, node, work),
+                                     scene.options.max_iterations, work.arc, work.scratch);
+    work.iterations += work.arc.iterations;
+    return converged;
+  }
+  bool converged = solve_held(scene, tau, node, work);
+  work.iterations += work.arc.iterations;
+  if (converged) return true;
+  forget_impulses(work.rows);
+  if (is_matched(&work.line)) work.line.lambda = 0;
+  work.arc.v = node.v;
+  converged = solve_held(scene, tau, node, work);
+  work.iterations += work.arc.iterations;
+  return converged;
 }
 
 }  // namespace saltus

@@ -9,20 +9,18 @@
 // its transpose would have twice the rank, with stiff directions where there is no motion at all.
 #pragma once
 
-#include "variational/flight/flight.hpp"
+#include "variational/arc/solve.hpp"
 
 namespace saltus {
 
-/// Of the active rows with the impulses in flight.rows.p: writes their rates u at flight.arc.v, and
-/// flight.rows.momentum, which all impulses have been added to.
+/// Of the active rows with the impulses in rows.p: writes their rates u at arc.v, and
+/// rows.momentum, which all impulses have been added to.
 /// @return how far they are from the arc's equation and from the law; of the latter not at first,
 /// when W has not been written
-Lawlessness set_row_rates(const ModelData& model, const StepOptions& options, const Node& node,
-                          Flight& flight);
+Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work);
 
-/// Writes W and the linearised rows. One Newton step of flight.arc.v and u goes before.
+/// Writes W and the linearised rows. One Newton step of arc.v and u goes before.
 /// @return false where there is no number
-bool set_row_blocks(const ModelData& model, const StepOptions& options, const Node& node,
-                    Flight& flight);
+bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work);
 
 }  // namespace saltus

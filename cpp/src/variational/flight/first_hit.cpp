@@ -1,0 +1,73 @@
+#include "variational/flight/first_hit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/collision/chord.hpp"
+
+namespace saltus {
+namespace {
+
+bool is_clear_on_chord(const Scene& scene, const Pair& solid, const Node& node, const VecX& dq) {
+  const ChordHit hit = first_hit_on_chord(scene.model.tree, solid, node.q, dq, 0);
+  return hit.outcome == ChordHit::Outcome::clear;
+}
+
+bool is_watched(const Node& node, const Flight& f, int slot) {
+  if (f.skips.passed[slot] || std::isinf(node.sunk_at(slot))) return false;
+  const int contact = node.contact_at(slot);
+  if (contact < 0) return true;
+  return node.contacts[contact].motion != Contact::Motion::rests &&
+         f.work.rows.of_contact[contact] < 0;
+}
+
+}  // namespace
+
+FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
+  const ModelData& model = scene.model;
+  FirstHit first;
+  if (model.pairs.empty()) return first;
+  f.dq = f.work.arc.tau * f.work.arc.v;
+  double margin = 0;
+  find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
+  const Pair* solid = nullptr;
+  bool is_clear = false;
+  for (const int number : f.broad.candidates) {
+    const int slot = node.pool.slot_of(model, number);
+    f.skips.fit(node.pool.size());
+    if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
+      solid = node.pool.solid(slot);
+      is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, node, f.dq);
+    }
+    if (is_clear || !is_watched(node, f, slot)) continue;
+    const ChordHit hit =
+        first_hit_on_chord(model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
+    if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < first.s)) continue;
+    const int contact = node.contact_at(slot);
+    const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
+    first = {slot, hit.s, hops};
+  }
+  return first;
+}
+
+bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
+  const Pair& pair = node.pool[end];
+  const auto* ball = std::get_if<Sphere>(&pair.on_a.shape);
+  if (pair.kind != PairKind::corner || ball == nullptr || !(ball->radius > 0)) return false;
+  place_end(model, work.arc.q_end, work.scratch);
+  const Vec3 p_WA = pair_gap_at_end(model, pair, work.scratch).p_WA;
+  constexpr double same_point = 1e-3;  // of the radius
+  for (const int i : work.rows.active) {
+    const Row& row = work.rows.row[i];
+    const bool is_axis =
+        node.pool.solid(row.slot) == node.pool.solid(end) && row.pair->kind == PairKind::crossing;
+    if (!is_axis) continue;
+    const Gap g = pair_gap_at_end(model, *row.pair, work.scratch);
+    const double apart = std::min((g.p_WA - p_WA).norm(), (g.p_WB - p_WA).norm());
+    if (apart < same_point * ball->radius) return true;
+  }
+  return false;
+}
+
+}  // namespace saltus

@@ -1,0 +1,62 @@
+// What an arc has to keep to be a part of the step.
+#include <algorithm>
+#include <cmath>
+
+#include "variational/step/stepper_impl.hpp"
+
+namespace saltus {
+namespace {
+
+/// Arcs that end without an impact: gaps that graze, a few a step.
+constexpr int most_arcs_idle = 100;
+
+constexpr double sunk_touches = 100;     ///< touches (1e-10 of the shapes' size) that are sinking
+constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
+
+}  // namespace
+
+bool Stepper::Impl::is_last_attempt() const {
+  return longest <= std::ldexp(scene.options.h, -scene.options.max_halvings);
+}
+
+void Stepper::Impl::note_start() {
+  deepest = 0;
+  for (int i = 0; i < node.touching; ++i) deepest = std::min(deepest, node.contacts[i].phi);
+  if (flight.work.rows.active.empty()) return;
+  kinetic = 0.5 * node.p.dot(node.v);
+  energy = node_energy(scene, node);
+}
+
+/// Contacts do no work. An arc that they hold and that gains energy is another root of the arc's
+/// equation than the motion. Of 2062 arcs of fast chains the wrong roots had gained .86 of the
+/// kinetic energy and more, and less than 1 % of the right ones swung by .3. As long as shorter
+/// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
+void Stepper::Impl::check_energy() {
+  if (flight.work.rows.active.empty()) return;
+  const double most = is_last_attempt() ? 0.3 : 0.02;
+  // slower is rest: what a step's gravity gives, and what the rounding of gaps does
+  const double h = scene.options.h;
+  const double slow = h * scene.model.mass.gravity.norm() + scene.most_touch / h;
+  const double least = 0.5 * scene.total_mass * slow * slow;
+  const double gain = node_energy(scene, node) - energy;
+  if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
+}
+
+/// No arc ends with bodies deeper in each other than it started. Where parts come to face each
+/// other that overlap already no shorter arc helps: that is an error where anybody can see it.
+void Stepper::Impl::check_gaps() {
+  const double most = is_last_attempt() ? visible_touches : sunk_touches;
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.phi < deepest - most * pool[c.slot].touch) fail_sinking(c);
+  }
+}
+
+/// Gaps that graze 0 may stop arc after arc where none closes.
+void Stepper::Impl::check_idle_arcs() {
+  const double meant =
+      scene.options.h / longest + std::min(scene.options.max_impacts, most_arcs_idle);
+  if (report.arcs - static_cast<int>(report.impacts.size()) > meant) fail_arcs();
+}
+
+}  // namespace saltus
