@@ -55,12 +55,9 @@ Energies
 void run(Trajectory& out, const State& start, double duration, const StepOptions& step,
          int record_every, bool record_contacts, const std::optional<Progress>& progress) {
   SimulateOptions options;
-  options.h = step.h;
-  options.law = step.law;
-  options.collisions = step.collisions;
+  options.step = step;
   options.record_every = record_every;
   options.record_contacts = record_contacts;
-  options.step = step;
   options.progress = asking_python(progress);
   const Model model = out.model;
   const py::gil_scoped_release release;
