@@ -130,7 +130,7 @@ State Model::state(const VecRef& q, const VecRef& v, double t) const {
   const VecX unit_q = checked_q(q, "q");
   check_vector(v, n_v(), "v", "velocities");
   if (!std::isfinite(t)) throw ModelError("t is not finite");
-  return {t, unit_q, lagrangian(unit_q, v).L_v};
+  return {t, unit_q, momenta(data_->tree, data_->packed, unit_q, v)};
 }
 
 VecX Model::velocity(const State& state) const {
