@@ -1652,13 +1652,18 @@ class ImpactLaw(enum.IntEnum):
     """
     Which energy an impact conserves.
 
-    nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
-    discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
-    Collisions in a Variational Framework", (11c); the step is exactly symplectic.
-    shadow_energy: H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
-    compensated: as discrete_energy, of arcs with L + (h^2 - tau^2) kappa / 24; the step is exactly
-    symplectic, and the energy of order h^4.
-    custom: a function that was given as the law.
+    nodal_energy
+        H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
+    discrete_energy
+        that of the arcs on both sides, (11c); the step is exactly symplectic.
+    shadow_energy
+        H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
+    compensated
+        (11c) of arcs with L + (h^2 - tau^2) kappa / 24; exactly symplectic, energy of order h^4.
+    custom
+        a function that was given as the law.
+
+    (11c) is Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational Framework".
     """
 
     compensated = ...
