@@ -102,14 +102,14 @@ void set_joint(const py::handle& value, const std::string& entry, const JointInf
   const bool is_split = joint.type == JointType::floating && !parts.empty() &&
                         parts != std::vector<std::size_t>{3, is_q ? 4u : 3u};
   if (given.size() + first != indices.size() || is_split) {
-    std::string wanted = std::to_string(indices.size()) + " numbers";
+    std::string wanted = counted(static_cast<long>(indices.size()), "number");
     if (joint.type == JointType::floating) {
       wanted = is_q ? "a Pose, a Rotation, or position and quaternion (x y z, x y z w)"
                     : "velocity and angular velocity (x y z, x y z)";
     } else if (joint.type == JointType::spherical) {
       wanted = is_q ? "a quaternion x y z w or a Rotation" : "an angular velocity x y z";
     }
-    std::string has = std::to_string(given.size()) + " numbers";
+    std::string has = counted(static_cast<long>(given.size()), "number");
     for (std::size_t k = 0; k < parts.size(); ++k) {
       has += (k == 0 ? " in parts of " : ", ") + std::to_string(parts[k]);
     }

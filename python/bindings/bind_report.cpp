@@ -104,8 +104,8 @@ MatX to_rows(const std::optional<MatX>& given, Eigen::Index impulses, double unk
   if (!given) return MatX::Constant(impulses, 3, unknown);
   if (given->rows() == impulses && given->cols() == 3) return *given;
   throw ModelError(what + " is (" + std::to_string(given->rows()) + ", " +
-                   std::to_string(given->cols()) + "); there are " + std::to_string(impulses) +
-                   " impulses, three numbers each");
+                   std::to_string(given->cols()) + "); there " + (impulses == 1 ? "is " : "are ") +
+                   counted(impulses, "impulse") + ", three numbers each");
 }
 
 void bind_impact(py::module_& m) {

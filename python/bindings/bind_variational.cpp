@@ -81,7 +81,7 @@ void bind_impact_problem(py::module_& m) {
       .def_readonly("pairs", &P::pairs)
       .def("__repr__", [](const P& problem) {
         return "<saltus.ImpactProblem: t = " + py::repr(py::float_(problem.t)).cast<std::string>() +
-               " s, " + std::to_string(problem.u.size()) + " contacts>";
+               " s, " + counted(problem.u.size(), "contact") + ">";
       });
 }
 

@@ -103,7 +103,7 @@ def test_what_a_function_does_wrong_is_said():
     stepper = saltus.Stepper(ball(1.0), law=lambda problem: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         stepper.advance(state)
-    assert "contacts" in repr(_seen(ball(1.0), state))
+    assert "1 contact>" in repr(_seen(ball(1.0), state))
 
 
 def _seen(model, state):
