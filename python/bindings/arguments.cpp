@@ -217,6 +217,17 @@ VecX to_vector(const Velocities& x, const Model& model, const char* what) {
   return v;
 }
 
+VecX to_vector(const PerContact& x, Eigen::Index contacts, const char* what) {
+  const auto any = py::array::ensure(x.value);
+  const auto array = py::array_t<double, py::array::forcecast>::ensure(x.value);
+  if (!array || array.ndim() > 1 || (any && any.dtype().kind() == 'b')) {
+    throw ModelError(std::string(what) + " is one number or one for each contact, not " +
+                     show(x.value));
+  }
+  if (array.ndim() == 0) return VecX::Constant(contacts, *array.data());
+  return array.cast<VecX>();
+}
+
 py::object to_member(const py::handle& x, const py::handle& kind, const char* what) {
   if (py::isinstance(x, kind)) return py::reinterpret_borrow<py::object>(x);
   const auto name = kind.attr("__name__").cast<std::string>();

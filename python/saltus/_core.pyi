@@ -23,6 +23,7 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "FrictionOutcome",
     "Gap",
     "Gaps",
     "HalfSpace",
@@ -1824,6 +1825,22 @@ class ImpactOutcome:
         velocity after, shape (n,)
         """
 
+class FrictionOutcome:
+    """
+    Velocity after an impact with friction, and the impulses that led there, in order.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def impulses(self) -> typing.Any:
+        """
+        structured array: "pair" (row of N), "lambda" [N s], "tangential" [N s] along the contact's two rows of T
+        """
+    @property
+    def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        velocity after, shape (n,)
+        """
+
 class ImpactKind(enum.Enum):
     """
     What can be said of an impact for all velocities at once.
@@ -2558,7 +2575,9 @@ def resolve_impact(
     restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
     order: ImpactOrder | str = ...,
     max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
-) -> ImpactOutcome:
+    T: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+    friction: typing.SupportsFloat | numpy.typing.ArrayLike | None = None,
+) -> ImpactOutcome | FrictionOutcome:
     """
     Impulses at one instant: while some contact approaches, reflect on one that does.
 
@@ -2572,6 +2591,12 @@ def resolve_impact(
     order matters, `impact_outcomes` by how much.
 
     Parameters
+    With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
+    until it does not close any more and an expansion with e times the impulse of the compression
+    (Poisson's restitution), and in each friction is what dissipates most, `|beta| <= mu lambda`. Energy
+    never grows. Contacts that all have e = 0 are resolved together; `ImpactOrder.symmetric` is
+    `fastest` here.
+
     ----------
     M : array_like, shape (n, n)
         Mass matrix, positive definite.
@@ -2584,18 +2609,35 @@ def resolve_impact(
     order : ImpactOrder or str
     max_impulses : int
 
+    T : array_like, shape (2 m, n), optional
+        Two rows a contact: `T v` is the velocity of the points that touch along two orthogonal unit
+        tangents; one row is 0 where motion is planar. Belongs to `friction`.
+    friction : float or array_like, shape (m,), optional
+        Coulomb's mu >= 0, of all contacts or of each. Belongs to `T`.
     Returns
     -------
     ImpactOutcome
         `v`, and `impulses` with the fields "pair" (row of N) and "lambda".
 
+    FrictionOutcome
+        With friction; its impulses have the field "tangential", shape (2,), too.
     Raises
     ------
     ModelError
-        On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1].
+        On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1],
+        mu < 0; on one of `T` and `friction` without the other.
     JammedError
         When the impulses do not end.
     """
+
+    Examples
+    --------
+    >>> import saltus
+    >>> out = saltus.resolve_impact(  # a puck slides down on a floor: x, z
+    ...     M=[[1, 0], [0, 1]], N=[[0, 1]], v=[2, -1], T=[[1, 0], [0, 0]], friction=0.25
+    ... )
+    >>> out.v.tolist()
+    [1.5, 1.0]
 
 def resolve_overlap(
     model: Model, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
