@@ -32,7 +32,8 @@ fallback : bool
     Another law was asked for and nodal_energy used, an impulse being too weak for it.
 certificate : str
     Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
-    (`certify`), and of a single contact.
+    (`certify`), and of a single contact. With friction whether another order of these impulses was
+    possible: "order_dependent", else "unique", or "unique, plastic" where all restitutions are 0.
 )";
 
 constexpr auto report_doc = R"(What happened in a step.

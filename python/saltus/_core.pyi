@@ -1969,7 +1969,8 @@ class Impact:
         Another law was asked for and nodal_energy used, an impulse being too weak for it.
     certificate : str
         Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
-        (`certify`), and of a single contact.
+        (`certify`), and of a single contact. With friction whether another order of these impulses was
+        possible: "order_dependent", else "unique", or "unique, plastic" where all restitutions are 0.
     """
     def __init__(
         self,
@@ -2590,13 +2591,13 @@ def resolve_impact(
     all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
     order matters, `impact_outcomes` by how much.
 
-    Parameters
     With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
     until it does not close any more and an expansion with e times the impulse of the compression
     (Poisson's restitution), and in each friction is what dissipates most, `|beta| <= mu lambda`. Energy
     never grows. Contacts that all have e = 0 are resolved together; `ImpactOrder.symmetric` is
     `fastest` here.
 
+    Parameters
     ----------
     M : array_like, shape (n, n)
         Mass matrix, positive definite.
@@ -2608,19 +2609,19 @@ def resolve_impact(
         e in [0, 1], of all contacts or of each.
     order : ImpactOrder or str
     max_impulses : int
-
     T : array_like, shape (2 m, n), optional
         Two rows a contact: `T v` is the velocity of the points that touch along two orthogonal unit
         tangents; one row is 0 where motion is planar. Belongs to `friction`.
     friction : float or array_like, shape (m,), optional
         Coulomb's mu >= 0, of all contacts or of each. Belongs to `T`.
+
     Returns
     -------
     ImpactOutcome
         `v`, and `impulses` with the fields "pair" (row of N) and "lambda".
-
     FrictionOutcome
         With friction; its impulses have the field "tangential", shape (2,), too.
+
     Raises
     ------
     ModelError
@@ -2628,7 +2629,6 @@ def resolve_impact(
         mu < 0; on one of `T` and `friction` without the other.
     JammedError
         When the impulses do not end.
-    """
 
     Examples
     --------
@@ -2638,6 +2638,7 @@ def resolve_impact(
     ... )
     >>> out.v.tolist()
     [1.5, 1.0]
+    """
 
 def resolve_overlap(
     model: Model, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None

@@ -85,6 +85,56 @@ void tell_reflections(const Node& node, ImpactLaw law, StepReport& report) {
   tell_impact(node, first, law, false, report);
 }
 
+/// Contacts that feel each other, through others too, have one number.
+std::vector<int> coupled_groups(const ContactBlocks& W) {
+  std::vector<int> group(static_cast<std::size_t>(W.size()));
+  std::iota(group.begin(), group.end(), 0);
+  for (int i = 0; i < W.size(); ++i) {
+    for (int k = W.start[i]; k < W.start[i + 1]; ++k) {
+      const int j = W.contact[k], from = group[j], to = group[i];
+      // what two contacts on different sides of a body leave of each other may be rounding
+      const double scale = W.own[i].trace() * W.own[j].trace();
+      if (from == to || !(W.block[k].squaredNorm() > 1e-24 * scale)) continue;
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  return group;
+}
+
+/// True where impulses could have come in another order that matters: at some time two contacts
+/// approached that feel each other.
+bool order_was_free(const Node& node, const std::vector<int>& group) {
+  const ContactBlocks& W = node.friction.W;
+  VecX u(W.size());
+  for (int i = 0; i < W.size(); ++i) u[i] = node.contacts[i].u;
+  std::vector<int> approaching;
+  for (const FrictionImpulse& each : node.friction.impulses) {
+    approaching.assign(group.size(), 0);
+    for (int i = 0; i < W.size(); ++i) {
+      if (u[i] < -W.rest[i] && ++approaching[group[i]] > 1) return true;
+    }
+    for (int k = W.start[each.contact]; k < W.start[each.contact + 1]; ++k) {
+      u[W.contact[k]] += W.block[k].row(0).dot(each.p);
+    }
+  }
+  return false;
+}
+
+/// Of impacts with friction no theory tells for all velocities whether the order matters. This
+/// tells whether it did for those that were. Contacts without rebound have no order.
+std::string certify_with_friction(const Node& node) {
+  const ContactBlocks& W = node.friction.W;
+  const std::vector<int> group = coupled_groups(W);
+  std::vector<char> hit(group.size(), 0);
+  for (const FrictionImpulse& each : node.friction.impulses) hit[group[each.contact]] = 1;
+  const auto reached = std::count_if(group.begin(), group.end(), [&](int g) { return hit[g]; });
+  if (reached < 2) return "";
+  if (std::all_of(W.restitution.begin(), W.restitution.end(), [](double e) { return e == 0; })) {
+    return "unique, plastic";
+  }
+  return order_was_free(node, group) ? "order_dependent" : "unique";
+}
+
 /// What friction takes is not known before: no energy is there to be matched, and every law is
 /// nodal_energy.
 bool resolve_with_friction(const ModelData& model, const StepOptions& options, Node& node,
@@ -97,8 +147,7 @@ bool resolve_with_friction(const ModelData& model, const StepOptions& options, N
   }
   constexpr ImpactLaw law = ImpactLaw::nodal_energy;
   tell_impact(node, first, law, options.law != law, report);
-  // certificates are of reflections; with friction the order is a convention
-  if (options.certify) report.certificates.push_back(node.touching > 1 ? "order_dependent" : "");
+  if (options.certify) report.certificates.push_back(certify_with_friction(node));
   settle_velocities(model, options, node);
   return true;
 }
