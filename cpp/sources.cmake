@@ -167,6 +167,7 @@ set(SALTUS_BINDING_SOURCES
   # variational
   python/bindings/bind_contact_space.cpp
   python/bindings/bind_report.cpp
+  python/bindings/bind_resolve_impact.cpp
   python/bindings/bind_stepper.cpp
   python/bindings/step_options.cpp
   python/bindings/bind_variational.cpp

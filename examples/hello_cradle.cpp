@@ -5,7 +5,7 @@
 #include <saltus/saltus.hpp>
 
 int main(int argc, char** argv) {
-  const auto model = saltus::load_urdf(argc > 1 ? argv[1] : "urdf/newtons_cradle_3.urdf").build();
+  const auto model = saltus::load_urdf(argc > 1 ? argv[1] : "urdf/newtons_cradle_3.urdf");
   const auto run = saltus::simulate(model, model.state({{"swing_0", 0.3}}), 10.0, {.h = 0.001});
   std::cout << std::fixed << std::setprecision(5) << "first impact at " << run.impacts[0].t
             << " s\n"

@@ -102,14 +102,14 @@ void set_joint(const py::handle& value, const std::string& entry, const JointInf
   const bool is_split = joint.type == JointType::floating && !parts.empty() &&
                         parts != std::vector<std::size_t>{3, is_q ? 4u : 3u};
   if (given.size() + first != indices.size() || is_split) {
-    std::string wanted = std::to_string(indices.size()) + " numbers";
+    std::string wanted = counted(static_cast<long>(indices.size()), "number");
     if (joint.type == JointType::floating) {
       wanted = is_q ? "a Pose, a Rotation, or position and quaternion (x y z, x y z w)"
                     : "velocity and angular velocity (x y z, x y z)";
     } else if (joint.type == JointType::spherical) {
       wanted = is_q ? "a quaternion x y z w or a Rotation" : "an angular velocity x y z";
     }
-    std::string has = std::to_string(given.size()) + " numbers";
+    std::string has = counted(static_cast<long>(given.size()), "number");
     for (std::size_t k = 0; k < parts.size(); ++k) {
       has += (k == 0 ? " in parts of " : ", ") + std::to_string(parts[k]);
     }
@@ -215,6 +215,17 @@ VecX to_vector(const Velocities& x, const Model& model, const char* what) {
                             : from_array(x.value, what, model.n_v());
   check_vector(v, model.n_v(), what, "velocities");
   return v;
+}
+
+VecX to_vector(const PerContact& x, Eigen::Index contacts, const char* what) {
+  const auto any = py::array::ensure(x.value);
+  const auto array = py::array_t<double, py::array::forcecast>::ensure(x.value);
+  if (!array || array.ndim() > 1 || (any && any.dtype().kind() == 'b')) {
+    throw ModelError(std::string(what) + " is one number or one for each contact, not " +
+                     show(x.value));
+  }
+  if (array.ndim() == 0) return VecX::Constant(contacts, *array.data());
+  return array.cast<VecX>();
 }
 
 py::object to_member(const py::handle& x, const py::handle& kind, const char* what) {

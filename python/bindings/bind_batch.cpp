@@ -70,12 +70,9 @@ void run(BatchTrajectory& out, const std::vector<State>& starts, double duration
          const StepOptions& step, int record_every, bool record_contacts, int threads,
          const Choice<OnFailure>& on_failure, const std::optional<Progress>& progress) {
   BatchOptions options;
-  options.run.h = step.h;
-  options.run.law = step.law;
-  options.run.collisions = step.collisions;
+  options.run.step = step;
   options.run.record_every = record_every;
   options.run.record_contacts = record_contacts;
-  options.run.step = step;
   options.run.progress = asking_python(progress);
   options.threads = threads;
   options.on_failure = to_enum(on_failure, "on_failure");

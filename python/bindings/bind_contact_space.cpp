@@ -1,54 +1,12 @@
-// Variational floor: impulses at one instant, of any mass matrix and normals.
+// Variational floor: what can be said of impacts of any mass matrix and normals.
 #include <pybind11/native_enum.h>
 
 #include "bindings.hpp"
-#include "saltus/variational/cascade.hpp"
 #include "saltus/variational/certificate.hpp"
 #include "saltus/variational/outcomes.hpp"
 
 namespace saltus::bindings {
 namespace {
-
-constexpr auto outcome_doc =
-    R"(Velocity after an impact, and the impulses that led there, in order.)";
-
-constexpr auto resolve_impact_doc =
-    R"(Impulses at one instant: while some contact approaches, reflect on one that does.
-
-In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e_i) u_i / G_ii`,
-`u += G[:, i] lambda_i`. Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational
-Framework", (4), (5) and section III-D. Ends after finitely many impulses if all e = 1 and the cone
-{v: N v >= 0} has an interior.
-
-The order `ImpactOrder.symmetric` reflects on all that approach together, and `restitution=0` for
-all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
-order matters, `impact_outcomes` by how much.
-
-Parameters
-----------
-M : array_like, shape (n, n)
-    Mass matrix, positive definite.
-N : array_like, shape (m, n)
-    Rows are gradients of the gaps.
-v : array_like, shape (n,)
-    Velocity before.
-restitution : float or array_like, shape (m,)
-    e in [0, 1], of all contacts or of each.
-order : ImpactOrder or str
-max_impulses : int
-
-Returns
--------
-ImpactOutcome
-    `v`, and `impulses` with the fields "pair" (row of N) and "lambda".
-
-Raises
-------
-ModelError
-    On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1].
-JammedError
-    When the impulses do not end.
-)";
 
 constexpr auto kind_doc = R"(What can be said of an impact for all velocities at once.
 
@@ -167,53 +125,28 @@ Examples
 <ImpactOutcomes: 2 outcomes, spread 42 % of v, 5 velocities met>
 )";
 
-VecX to_vector(const Restitution& restitution, Eigen::Index contacts) {
-  const auto array = py::array_t<double, py::array::forcecast>::ensure(restitution.value);
-  if (!array || array.ndim() > 1) {
-    throw ModelError("restitution is one number or one for each contact, not " +
-                     py::repr(restitution.value).cast<std::string>());
-  }
-  if (array.ndim() == 0) return VecX::Constant(contacts, *array.data());
-  return array.cast<VecX>();
-}
-
-// Strings and pandas-like objects make pybind11's overload error; these are arrays in any case.
-ImpactOutcome resolve(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
-                      const VecX& v, const Restitution& restitution,
-                      const Choice<ImpactOrder>& order, int max_impulses) {
-  const VecX e = to_vector(restitution, N.rows());
-  const CascadeOptions options{to_enum(order, "order"), max_impulses};
-  const py::gil_scoped_release release;
-  return resolve_impact(M, N, v, e, options);
-}
-
 ImpactCertificate classify(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
-                           const Restitution& restitution, double tolerance) {
-  const VecX e = to_vector(restitution, N.rows());
+                           const PerContact& restitution, double tolerance) {
+  const VecX e = to_vector(restitution, N.rows(), "restitution");
   const py::gil_scoped_release release;
   return classify_impact(M, N, e, {tolerance});
 }
 
 ImpactOutcomes search(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
-                      const VecX& v, const Restitution& restitution, int max_outcomes,
+                      const VecX& v, const PerContact& restitution, int max_outcomes,
                       long max_states, double tolerance) {
-  const VecX e = to_vector(restitution, N.rows());
+  const VecX e = to_vector(restitution, N.rows(), "restitution");
   const py::gil_scoped_release release;
   return impact_outcomes(M, N, v, e, {max_outcomes, max_states, tolerance});
 }
 
-std::string count(std::size_t number, const std::string& what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
 std::string describe(const ImpactOutcomes& o) {
-  std::string text = "<ImpactOutcomes: " + count(o.outcomes.size(), "outcome");
+  std::string text = "<ImpactOutcomes: " + counted(static_cast<long>(o.outcomes.size()), "outcome");
   if (o.outcomes.size() > 1) {
     const py::str percent = py::str("{:.2g} % of v").format(100 * o.relative_spread);
     text += ", spread " + percent.cast<std::string>();
   }
-  return text + ", " + std::to_string(o.states) + (o.states == 1 ? " velocity" : " velocities") +
-         " met>";
+  return text + ", " + counted(o.states, "velocity") + " met>";
 }
 
 void bind_certificate(py::module_& m) {
@@ -255,24 +188,7 @@ void bind_outcomes(py::module_& m) {
 }  // namespace
 
 void bind_contact_space(py::module_& m) {
-  PYBIND11_NUMPY_DTYPE(Impulse, pair, lambda);
-  py::class_<ImpactOutcome>(m, "ImpactOutcome", outcome_doc)
-      .def_readonly("v", &ImpactOutcome::v, "velocity after, shape (n,)")
-      .def_property_readonly(
-          "impulses",
-          [](const py::object& self) {
-            return view(self.cast<const ImpactOutcome&>().impulses, self);
-          },
-          "structured array: \"pair\" (row of N), \"lambda\" [N s]")
-      .def("__repr__", [](const ImpactOutcome& o) {
-        return "ImpactOutcome(v=" + py::str(py::cast(o.v).attr("tolist")()).cast<std::string>() +
-               ", " + std::to_string(o.impulses.size()) + " impulses)";
-      });
-  const CascadeOptions o;
-  m.def("resolve_impact", &resolve, resolve_impact_doc, py::arg("M"), py::arg("N"), py::arg("v"),
-        py::kw_only(), py::arg("restitution") = 1.0,
-        py::arg_v("order", o.order, "ImpactOrder.fastest"),
-        py::arg("max_impulses") = o.max_impulses);
+  bind_resolve_impact(m);
   bind_certificate(m);
   bind_outcomes(m);
 }

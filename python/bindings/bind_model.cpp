@@ -103,8 +103,7 @@ void bind_gaps(py::module_& m) {
       .def_readonly("p_WA", &Gaps::p_WA, "[m] witnesses on a, shape (m, 3)")
       .def_readonly("p_WB", &Gaps::p_WB, "[m] witnesses on b, shape (m, 3)")
       .def("__len__", [](const Gaps& g) { return g.phi.size(); })
-      .def("__repr__",
-           [](const Gaps& g) { return "Gaps(" + std::to_string(g.phi.size()) + " pairs)"; });
+      .def("__repr__", [](const Gaps& g) { return "Gaps(" + counted(g.phi.size(), "pair") + ")"; });
 }
 
 /// Lists are for people and small models.
@@ -177,10 +176,10 @@ void bind_lists(py::class_<Model>& c) {
       .def("without_collisions", &Model::without_collisions,
            "A copy without any pair: bodies pass through each other.")
       .def("__repr__", [](const Model& m) {
-        return "Model('" + m->name + "', " + std::to_string(m.n_q()) + " coordinates, " +
-               (m.n_v() == m.n_q() ? "" : std::to_string(m.n_v()) + " velocities, ") +
-               std::to_string(m->shapes.size()) + " shapes, " + std::to_string(m->pairs.size()) +
-               " pairs)";
+        return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
+               (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
+               counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
+               counted(m->pairs.size(), "pair") + ")";
       });
 }
 

@@ -32,7 +32,8 @@ fallback : bool
     Another law was asked for and nodal_energy used, an impulse being too weak for it.
 certificate : str
     Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
-    (`certify`), and of a single contact.
+    (`certify`), and of a single contact. With friction whether another order of these impulses was
+    possible: "order_dependent", else "unique", or "unique, plastic" where all restitutions are 0.
 )";
 
 constexpr auto report_doc = R"(What happened in a step.
@@ -104,8 +105,8 @@ MatX to_rows(const std::optional<MatX>& given, Eigen::Index impulses, double unk
   if (!given) return MatX::Constant(impulses, 3, unknown);
   if (given->rows() == impulses && given->cols() == 3) return *given;
   throw ModelError(what + " is (" + std::to_string(given->rows()) + ", " +
-                   std::to_string(given->cols()) + "); there are " + std::to_string(impulses) +
-                   " impulses, three numbers each");
+                   std::to_string(given->cols()) + "); there " + (impulses == 1 ? "is " : "are ") +
+                   counted(impulses, "impulse") + ", three numbers each");
 }
 
 void bind_impact(py::module_& m) {

@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "progress.hpp"
 #include "saltus/rollout/simulate.hpp"
+#include "structured.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -55,12 +56,9 @@ Energies
 void run(Trajectory& out, const State& start, double duration, const StepOptions& step,
          int record_every, bool record_contacts, const std::optional<Progress>& progress) {
   SimulateOptions options;
-  options.h = step.h;
-  options.law = step.law;
-  options.collisions = step.collisions;
+  options.step = step;
   options.record_every = record_every;
   options.record_contacts = record_contacts;
-  options.step = step;
   options.progress = asking_python(progress);
   const Model model = out.model;
   const py::gil_scoped_release release;
@@ -72,39 +70,21 @@ py::object rows(const py::object& self) {
   return view(self.cast<const Trajectory&>().*field, self);
 }
 
-/// A structured array over `items`, which `self` keeps alive: no copy.
-template <class Item>
-py::object rows(const std::vector<Item>& items, const py::dtype& type, const py::object& self) {
-  return read_only(
-      py::array(type, {static_cast<py::ssize_t>(items.size())}, {}, items.data(), self));
+/// The fields of a ContactImpulse that is `base` bytes into the item.
+void add_impulse(std::size_t base, Fields& fields) {
+  using C = ContactImpulse;
+  fields.add("pair", "i4", base + offsetof(C, pair));
+  fields.add("lambda", "f8", base + offsetof(C, lambda));
+  fields.add("tangential", "3f8", base + offsetof(C, p_W));
+  fields.add("point", "3f8", base + offsetof(C, point_W));
+  fields.add("normal", "3f8", base + offsetof(C, n_W));
 }
-
-/// Fields of a structured array: names, types and where they are in an item.
-struct Fields {
-  py::list names, formats, offsets;
-  void add(const char* name, const char* format, std::size_t offset) {
-    names.append(name);
-    formats.append(format);
-    offsets.append(offset);
-  }
-  /// Those of a ContactImpulse that is `base` bytes into the item.
-  void add_impulse(std::size_t base) {
-    using C = ContactImpulse;
-    add("pair", "i4", base + offsetof(C, pair));
-    add("lambda", "f8", base + offsetof(C, lambda));
-    add("tangential", "3f8", base + offsetof(C, p_W));
-    add("point", "3f8", base + offsetof(C, point_W));
-    add("normal", "3f8", base + offsetof(C, n_W));
-  }
-  py::dtype type(std::size_t size) const {
-    return {names, formats, offsets, static_cast<py::ssize_t>(size)};
-  }
-};
 
 py::object impulses(const py::object& self) {
   Fields fields;
-  fields.add_impulse(0);
-  return rows(self.cast<const Trajectory&>().impulses, fields.type(sizeof(ContactImpulse)), self);
+  add_impulse(0, fields);
+  return structured_view(self.cast<const Trajectory&>().impulses,
+                         fields.type(sizeof(ContactImpulse)), self);
 }
 
 py::object contacts(const py::object& self) {
@@ -115,8 +95,8 @@ py::object contacts(const py::object& self) {
   fields.add("row", "i8", offsetof(R, row));
   fields.add("t", "f8", offsetof(R, t));
   fields.add("impact", "i4", offsetof(R, impact));
-  fields.add_impulse(offsetof(R, impulse));
-  return rows(*run.contacts, fields.type(sizeof(R)), self);
+  add_impulse(offsetof(R, impulse), fields);
+  return structured_view(*run.contacts, fields.type(sizeof(R)), self);
 }
 
 void bind_trajectory(py::module_& m) {

@@ -92,7 +92,7 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
   }
   const std::string text = to_path(path_or_text);
   const py::gil_scoped_release release;
-  return load_urdf(text, options);
+  return saltus::read_urdf(text, options);
 }
 
 }  // namespace

@@ -8,17 +8,6 @@
 namespace saltus::bindings {
 namespace {
 
-constexpr auto impact_law_doc = R"(Which energy an impact conserves.
-
-nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
-discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
-Collisions in a Variational Framework", (11c); the step is exactly symplectic.
-shadow_energy: H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
-compensated: as discrete_energy, of arcs with L + (h^2 - tau^2) kappa / 24; the step is exactly
-symplectic, and the energy of order h^4.
-custom: a function that was given as the law.
-)";
-
 constexpr auto impact_order_doc = R"(Which of the approaching contacts is next.
 
 fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
@@ -92,19 +81,26 @@ void bind_impact_problem(py::module_& m) {
       .def_readonly("pairs", &P::pairs)
       .def("__repr__", [](const P& problem) {
         return "<saltus.ImpactProblem: t = " + py::repr(py::float_(problem.t)).cast<std::string>() +
-               " s, " + std::to_string(problem.u.size()) + " contacts>";
+               " s, " + counted(problem.u.size(), "contact") + ">";
       });
+}
+
+std::string impact_law_doc() {
+  std::string doc = "Which energy an impact conserves.\n\n";
+  for (const LawEntry& each : impact_laws()) {
+    doc += std::string(each.name) + "\n    " + each.meaning + "\n";
+  }
+  return doc +
+         "\n(11c) is Seghete and Murphey, \"Multiple Instantaneous Collisions in a Variational "
+         "Framework\".\n";
 }
 
 void bind_enums(py::module_& m) {
   // IntEnum, so that a column of an array of impacts can be compared with it.
-  py::native_enum<ImpactLaw>(m, "ImpactLaw", "enum.IntEnum", impact_law_doc)
-      .value("nodal_energy", ImpactLaw::nodal_energy)
-      .value("discrete_energy", ImpactLaw::discrete_energy)
-      .value("shadow_energy", ImpactLaw::shadow_energy)
-      .value("compensated", ImpactLaw::compensated)
-      .value("custom", ImpactLaw::custom)
-      .finalize();
+  const std::string doc = impact_law_doc();
+  py::native_enum<ImpactLaw> laws(m, "ImpactLaw", "enum.IntEnum", doc.c_str());
+  for (const LawEntry& each : impact_laws()) laws.value(each.name, each.law);
+  laws.finalize();
   py::native_enum<ImpactOrder>(m, "ImpactOrder", "enum.Enum", impact_order_doc)
       .value("fastest", ImpactOrder::fastest)
       .value("index", ImpactOrder::index)

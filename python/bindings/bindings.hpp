@@ -31,7 +31,8 @@ void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
 void bind_contact_space(py::module_& m);
-void bind_report(py::module_& m);  ///< called by bind_stepper
+void bind_resolve_impact(py::module_& m);  ///< called by bind_contact_space
+void bind_report(py::module_& m);          ///< called by bind_stepper
 void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
 void bind_batch(py::module_& m);
@@ -55,10 +56,14 @@ struct Velocities {
 VecX to_vector(const Coordinates& x, const Model& model, const char* what = "q");
 VecX to_vector(const Velocities& x, const Model& model, const char* what = "v");
 
-/// What a user gives for e: one number for all contacts, or one for each.
-struct Restitution {
+/// What a user gives for e or mu: one number for all contacts, or one for each.
+struct PerContact {
   py::object value;
 };
+
+/// One number for each contact; `what` names them in messages.
+/// @throws ModelError on what are no numbers
+VecX to_vector(const PerContact& x, Eigen::Index contacts, const char* what);
 
 /// Which law impacts obey: one of ImpactLaw or its name, or a function ImpactProblem -> p+.
 struct LawChoice {
@@ -148,8 +153,8 @@ struct type_caster<saltus::bindings::Velocities> {
 };
 
 template <>
-struct type_caster<saltus::bindings::Restitution> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::Restitution,
+struct type_caster<saltus::bindings::PerContact> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::PerContact,
                        const_name("typing.SupportsFloat | numpy.typing.ArrayLike"));
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);

@@ -23,6 +23,7 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "FrictionOutcome",
     "Gap",
     "Gaps",
     "HalfSpace",
@@ -1652,13 +1653,18 @@ class ImpactLaw(enum.IntEnum):
     """
     Which energy an impact conserves.
 
-    nodal_energy: H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
-    discrete_energy: that of the arcs on both sides; Seghete and Murphey, "Multiple Instantaneous
-    Collisions in a Variational Framework", (11c); the step is exactly symplectic.
-    shadow_energy: H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
-    compensated: as discrete_energy, of arcs with L + (h^2 - tau^2) kappa / 24; the step is exactly
-    symplectic, and the energy of order h^4.
-    custom: a function that was given as the law.
+    nodal_energy
+        H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
+    discrete_energy
+        that of the arcs on both sides, (11c); the step is exactly symplectic.
+    shadow_energy
+        H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve.
+    compensated
+        (11c) of arcs with L + (h^2 - tau^2) kappa / 24; exactly symplectic, energy of order h^4.
+    custom
+        a function that was given as the law.
+
+    (11c) is Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational Framework".
     """
 
     compensated = ...
@@ -1819,6 +1825,22 @@ class ImpactOutcome:
         velocity after, shape (n,)
         """
 
+class FrictionOutcome:
+    """
+    Velocity after an impact with friction, and the impulses that led there, in order.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def impulses(self) -> typing.Any:
+        """
+        structured array: "pair" (row of N), "lambda" [N s], "tangential" [N s] along the contact's two rows of T
+        """
+    @property
+    def v(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        velocity after, shape (n,)
+        """
+
 class ImpactKind(enum.Enum):
     """
     What can be said of an impact for all velocities at once.
@@ -1947,7 +1969,8 @@ class Impact:
         Another law was asked for and nodal_energy used, an impulse being too weak for it.
     certificate : str
         Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
-        (`certify`), and of a single contact.
+        (`certify`), and of a single contact. With friction whether another order of these impulses was
+        possible: "order_dependent", else "unique", or "unique, plastic" where all restitutions are 0.
     """
     def __init__(
         self,
@@ -2553,7 +2576,9 @@ def resolve_impact(
     restitution: typing.SupportsFloat | numpy.typing.ArrayLike = 1.0,
     order: ImpactOrder | str = ...,
     max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
-) -> ImpactOutcome:
+    T: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+    friction: typing.SupportsFloat | numpy.typing.ArrayLike | None = None,
+) -> ImpactOutcome | FrictionOutcome:
     """
     Impulses at one instant: while some contact approaches, reflect on one that does.
 
@@ -2565,6 +2590,12 @@ def resolve_impact(
     The order `ImpactOrder.symmetric` reflects on all that approach together, and `restitution=0` for
     all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
     order matters, `impact_outcomes` by how much.
+
+    With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
+    until it does not close any more and an expansion with e times the impulse of the compression
+    (Poisson's restitution), and in each friction is what dissipates most, `|beta| <= mu lambda`. Energy
+    never grows. Contacts that all have e = 0 are resolved together; `ImpactOrder.symmetric` is
+    `fastest` here.
 
     Parameters
     ----------
@@ -2578,18 +2609,35 @@ def resolve_impact(
         e in [0, 1], of all contacts or of each.
     order : ImpactOrder or str
     max_impulses : int
+    T : array_like, shape (2 m, n), optional
+        Two rows a contact: `T v` is the velocity of the points that touch along two orthogonal unit
+        tangents; one row is 0 where motion is planar. Belongs to `friction`.
+    friction : float or array_like, shape (m,), optional
+        Coulomb's mu >= 0, of all contacts or of each. Belongs to `T`.
 
     Returns
     -------
     ImpactOutcome
         `v`, and `impulses` with the fields "pair" (row of N) and "lambda".
+    FrictionOutcome
+        With friction; its impulses have the field "tangential", shape (2,), too.
 
     Raises
     ------
     ModelError
-        On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1].
+        On shapes that do not fit, values that are not finite, M not positive definite, e not in [0, 1],
+        mu < 0; on one of `T` and `friction` without the other.
     JammedError
         When the impulses do not end.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> out = saltus.resolve_impact(  # a puck slides down on a floor: x, z
+    ...     M=[[1, 0], [0, 1]], N=[[0, 1]], v=[2, -1], T=[[1, 0], [0, 0]], friction=0.25
+    ... )
+    >>> out.v.tolist()
+    [1.5, 1.0]
     """
 
 def resolve_overlap(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import operator
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from saltus import _core
 
 LONGEST = 60  # letters of a value that are shown
 
+NUMERIC = ("typing.SupportsFloat", "typing.SupportsInt")
 NUMBERS = {"SupportsFloat": "number", "SupportsInt": "whole number"}
 
 
@@ -62,6 +64,46 @@ def explain(
     signature = _signature(signatures[0], lines[0].partition("(")[0])
     given = positional[1:] if makes else positional
     return f"{signature.name}() {_complaint(signature, given, keywords)}"
+
+
+def find_truth_value(
+    document: str, positional: Sequence[object], keywords: Mapping[str, object]
+) -> str | None:
+    """Return what is wrong with a call that gives True or False for a number.
+
+    Parameters
+    ----------
+    document : str
+        The function's docstring, which begins with its signature.
+    positional : sequence
+        The arguments, `self` first where there is one.
+    keywords : mapping
+
+    Returns
+    -------
+    str or None
+        None where truth values are given for nothing but truth values.
+    """
+    signature = _documented(document.partition("\n")[0])
+    annotations = {each.name: each.annotation for each in signature.parameters}
+    values = {**dict(zip(annotations, positional, strict=False)), **keywords}
+    for name, value in values.items():
+        annotation = annotations.get(name, "")
+        if isinstance(value, bool | np.bool_) and annotation.startswith(NUMERIC):
+            wrong = _misfit(name, value, annotation)
+            if wrong:
+                return f"{signature.name}() is given {wrong}"
+    return None
+
+
+@lru_cache(maxsize=1024)
+def _documented(line: str) -> Signature:
+    """Read the first line of a docstring; a constructor has the name of its class."""
+    signature = _signature(line, "")
+    if signature.name != "__init__":
+        return signature
+    made = signature.parameters[0].annotation.rpartition(".")[2]
+    return signature._replace(name=made)
 
 
 def _complaint(
@@ -174,6 +216,8 @@ def _fits(value: object, kind: str) -> bool:
 
 
 def _is_float(value: object) -> bool:
+    if isinstance(value, bool | np.bool_):
+        return False
     try:
         float(value)  # type: ignore[arg-type]  # that is the question
     except (TypeError, ValueError):
@@ -182,6 +226,8 @@ def _is_float(value: object) -> bool:
 
 
 def _is_index(value: object) -> bool:
+    if isinstance(value, bool | np.bool_):
+        return False
     try:
         operator.index(value)  # type: ignore[arg-type]
     except TypeError:

@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   }
   try {
     const double budget = std::stod(argv[1]);
-    const Model cradle = load_urdf(argv[2]).build();
+    const Model cradle = load_urdf(argv[2]);
     std::cout << "{";
     print_gaps(budget);
     std::cout << ", \"gradient\": " << gradient(budget) << ", ";

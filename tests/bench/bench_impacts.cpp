@@ -73,7 +73,7 @@ double median(const Steps& steps, bool with_impacts, double clock) {
 }
 
 void run(double /*budget*/, const bench::Job& job) {
-  const Model model = load_urdf(job.file).build();
+  const Model model = load_urdf(job.file);
   const State start = model.state({{"swing_0", job.angle}});
   const double clock = least_clock_reading();
   for (const double h : {1e-3, 1e-2}) {

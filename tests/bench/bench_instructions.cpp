@@ -55,7 +55,7 @@ void count_steps_with_an_impact(const Model& model, State state) {
 void run(const std::string& workload, const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
-  const Model model = load_urdf(job.file, options).build();
+  const Model model = load_urdf(job.file, options);
   const int n = model.n_v();
   const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
   const VecX v = VecX::Constant(n, 0.1);

@@ -116,7 +116,7 @@ void print_long_step(const Model& model, const State& start) {
 void run(double budget, const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
-  const Model model = load_urdf(job.file, options).build();
+  const Model model = load_urdf(job.file, options);
   const int n = model.n_v();
   const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
   const VecX v = VecX::Constant(n, 0.1);

@@ -5,6 +5,6 @@
 #include <iostream>
 
 int main() {
-  const saltus::Model model = saltus::load_urdf(SALTUS_URDF_DIR "/newtons_cradle_3.urdf").build();
+  const saltus::Model model = saltus::load_urdf(SALTUS_URDF_DIR "/newtons_cradle_3.urdf");
   std::cout << model.n_q() << " coordinates\n";
 }

@@ -162,12 +162,50 @@ def test_no_function_prints_its_signatures():
 
 
 def test_numbers_of_all_kinds_are_taken():
-    for radius in (1, 0.5, np.float32(0.5), np.int64(2), np.array(0.5), True):
+    for radius in (1, 0.5, np.float32(0.5), np.int64(2), np.array(0.5)):
         assert saltus.Sphere(radius).radius == float(radius)
     assert saltus.StepOptions(max_impacts=np.int32(7)).max_impacts == 7
     assert saltus.Pose() * (1, 0, 0) == pytest.approx([1, 0, 0])
     with pytest.raises(TypeError, match="unsupported operand"):
         saltus.Pose() * None
+
+
+@pytest.mark.parametrize("value", [True, np.True_])
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda x: saltus.Sphere(x), "Sphere() is given radius"),
+        (lambda x: saltus.solid_sphere(x, 0.1), "solid_sphere() is given mass"),
+        (
+            lambda x: saltus.ModelBuilder().add_body("ball", saltus.Sphere(0.1), mass=x),
+            "add_body() is given mass",
+        ),
+        (lambda x: saltus.Stepper(cradle(), h=x), "Stepper() is given h"),
+        (lambda x: saltus.simulate(cradle(), duration=x), "simulate() is given duration"),
+        (lambda x: saltus.simulate(cradle(), duration=1.0, h=x), "StepOptions() is given h"),
+        (lambda x: cradle().state(t=x), "state() is given t"),
+    ],
+)
+def test_truth_values_are_no_numbers(call, message, value):
+    with pytest.raises(TypeError) as error:
+        call(value)
+    wrong = f"{message} = {value!r} ({type(value).__name__}), which is no number"
+    assert str(error.value) in (wrong, f"{wrong} or None")
+
+
+def test_truth_values_are_no_whole_numbers_and_no_lists_of_numbers():
+    with pytest.raises(TypeError, match=r"max_impacts = True \(bool\), which is no whole number"):
+        saltus.StepOptions(max_impacts=True)
+    for wrong in (True, [True], np.array([True])):
+        with pytest.raises(saltus.ModelError, match="restitution is one number or one for each"):
+            saltus.resolve_impact([[1.0]], [[1.0]], [-1.0], restitution=wrong)
+
+
+def test_truth_values_are_taken_where_they_are_meant():
+    for collisions in (False, np.False_):
+        assert not saltus.Stepper(cradle(), collisions=collisions).options.collisions
+    builder = saltus.ModelBuilder().add(cradle(), "a_", own_materials=True)
+    assert builder.build().n_q == cradle().n_q
 
 
 def test_errors_of_functions_that_are_called_from_inside_stay():

@@ -103,7 +103,7 @@ def test_what_a_function_does_wrong_is_said():
     stepper = saltus.Stepper(ball(1.0), law=lambda problem: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         stepper.advance(state)
-    assert "contacts" in repr(_seen(ball(1.0), state))
+    assert "1 contact>" in repr(_seen(ball(1.0), state))
 
 
 def _seen(model, state):
@@ -124,3 +124,11 @@ def test_an_overlap_is_resolved():
     q = saltus.resolve_overlap(model, {"x_0": 0.03})
     np.testing.assert_allclose(model.gaps(q).phi[[0, 2]], 0, atol=1e-11)
     saltus.Stepper(model).advance(model.state(q=q))
+
+
+def test_every_law_has_a_line_in_the_documentation_of_its_enumeration():
+    lines = (saltus.ImpactLaw.__doc__ or "").splitlines()
+    assert [line for line in lines if line in saltus.ImpactLaw.__members__] == [
+        law.name for law in saltus.ImpactLaw
+    ]
+    assert [law.value for law in saltus.ImpactLaw] == list(range(len(saltus.ImpactLaw)))

@@ -112,7 +112,7 @@ def test_bouncing_ball_meets_the_floor():
         ({"duration": 1.0, "record_every": 0}, "record_every"),
         ({"duration": 1.0, "q": {"swing_0": -0.05}}, "ball_0 ~ ball_1"),
         ({"duration": 1.0, "q": {"elbow": 1}}, "there are swing_0"),
-        ({"duration": 1.0, "v": [1.0]}, "v has 1 entries"),
+        ({"duration": 1.0, "v": [1.0]}, "v has 1 entry"),
         ({"duration": 1.0, "q": [0.0] * 6, "state": cradle().state()}, "not both"),
     ],
 )

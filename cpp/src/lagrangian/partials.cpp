@@ -30,17 +30,23 @@ void add_pairs(const Tree& tree, const PackedTree& t, const SecondPartials& rows
   }
 }
 
+/// Writes L_v and L_q by joint, and all that second_pass needs.
+void set_first_partials(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v,
+                        Packed& w) {
+  set_coordinates(tree, t, q, w);
+  set_rates(tree, t, v, w);
+  place(t, w);
+  move(t, w);
+  first_pass(t, w);
+}
+
 }  // namespace
 
 LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q,
                               const VecRef& v) {
   Packed w(t);
   SecondPartials rows(t);
-  set_coordinates(tree, t, q, w);
-  set_rates(tree, t, v, w);
-  place(t, w);
-  move(t, w);
-  first_pass(t, w);
+  set_first_partials(tree, t, q, v, w);
   const double V = potential_energy(t, w);
   second_pass(t, w);
   multiply_pairs(t, w, rows);
@@ -52,6 +58,14 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   add_pairs(tree, t, rows, L);
   L.value = 0.5 * v.dot(L.L_v) - V;
   return L;
+}
+
+VecX momenta(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v) {
+  Packed w(t);
+  set_first_partials(tree, t, q, v, w);
+  VecX p(tree.n_v);
+  gather(tree, t, w.first, 0, p);
+  return p;
 }
 
 MatX mass_matrix(const Tree& tree, const PackedTree& t, const VecRef& q) {

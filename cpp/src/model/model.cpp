@@ -54,9 +54,17 @@ std::string list_names(const std::vector<std::string>& names) {
   return list;
 }
 
+std::string counted(long number, const std::string& noun) {
+  std::string text = std::to_string(number) + " " + noun;
+  if (number == 1) return text;
+  if (text.back() != 'y') return text + "s";
+  text.pop_back();
+  return text + "ies";
+}
+
 void check_vector(const VecRef& x, int n, const std::string& what, const std::string& unit) {
   if (x.size() != n) {
-    throw ModelError(what + " has " + std::to_string(x.size()) + " entries; the model has " +
+    throw ModelError(what + " has " + counted(x.size(), "entry") + "; the model has " +
                      std::to_string(n) + " " + unit);
   }
   for (int i = 0; i < n; ++i) {
@@ -130,7 +138,7 @@ State Model::state(const VecRef& q, const VecRef& v, double t) const {
   const VecX unit_q = checked_q(q, "q");
   check_vector(v, n_v(), "v", "velocities");
   if (!std::isfinite(t)) throw ModelError("t is not finite");
-  return {t, unit_q, lagrangian(unit_q, v).L_v};
+  return {t, unit_q, momenta(data_->tree, data_->packed, unit_q, v)};
 }
 
 VecX Model::velocity(const State& state) const {

@@ -6,8 +6,8 @@ namespace {
 void check_rows(const Eigen::Ref<const MatX>& x, int n, const std::string& what,
                 const std::string& unit) {
   if (x.cols() != n) {
-    throw ModelError("rows of " + what + " have " + std::to_string(x.cols()) +
-                     " entries; the model has " + std::to_string(n) + " " + unit);
+    throw ModelError("rows of " + what + " have " + counted(x.cols(), "entry") +
+                     "; the model has " + std::to_string(n) + " " + unit);
   }
   for (Eigen::Index row = 0; row < x.rows(); ++row) {
     if (x.row(row).allFinite()) continue;
@@ -49,8 +49,7 @@ MatX velocities(const Model& model, const AttachedFrame& frame, const Eigen::Ref
   check_rows(q, model.n_q(), "q", "coordinates");
   check_rows(v, model.n_v(), "v", "velocities");
   if (q.rows() != v.rows()) {
-    throw ModelError("q has " + std::to_string(q.rows()) + " rows and v " +
-                     std::to_string(v.rows()));
+    throw ModelError("q has " + counted(q.rows(), "row") + " and v " + std::to_string(v.rows()));
   }
   Kinematics kin(model->tree);
   MatX out = MatX::Zero(q.rows(), 6);

@@ -50,7 +50,7 @@ std::vector<State> states(const Model& model, const Eigen::Ref<const MatX>& q,
   check_array(coordinate_names(model), "coordinates", q, "q");
   check_array(model->velocity_names, "velocities", v, "v");
   if (q.rows() != v.rows()) {
-    throw ModelError("q has " + std::to_string(q.rows()) + " rows and v has " +
+    throw ModelError("q has " + counted(q.rows(), "row") + " and v has " +
                      std::to_string(v.rows()) + "; a row is a run");
   }
   std::vector<State> out;

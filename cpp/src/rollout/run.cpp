@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "variational/terms/check_options.hpp"
+
 namespace saltus {
 namespace {
 
@@ -11,10 +13,9 @@ namespace {
 constexpr double most_gigabytes = 16;
 
 void check_numbers(double duration, const SimulateOptions& options) {
+  check_options(options.step);
   std::ostringstream text;
-  if (!(options.h > 0) || !std::isfinite(options.h)) {
-    text << "h = " << options.h << " s; it must be positive and finite";
-  } else if (!(duration > 0) || !std::isfinite(duration)) {
+  if (!(duration > 0) || !std::isfinite(duration)) {
     text << "duration = " << duration << " s; it must be positive and finite";
   } else if (options.record_every < 1) {
     text << "record_every = " << options.record_every << "; it must be at least 1";
@@ -22,27 +23,12 @@ void check_numbers(double duration, const SimulateOptions& options) {
   if (!text.str().empty()) throw ModelError(text.str());
 }
 
-/// What is set in options.step and not used must be what is used.
-void check_no_contradiction(const SimulateOptions& options) {
-  const StepOptions &step = options.step, unset;
+long count_steps(double duration, double h) {
   std::ostringstream text;
-  if (step.h != unset.h && step.h != options.h) {
-    text << "step.h = " << step.h << " s, but h = " << options.h << " s";
-  } else if (step.law != unset.law && step.law != options.law) {
-    text << "step.law = " << law_name(step.law) << ", but law = " << law_name(options.law);
-  } else if (step.collisions != unset.collisions && step.collisions != options.collisions) {
-    text << "step.collisions = false, but collisions = true";
-  }
-  if (text.str().empty()) return;
-  throw ModelError(text.str() + "; set it in SimulateOptions, whose step is for bounds alone");
-}
-
-long count_steps(double duration, const SimulateOptions& options) {
-  std::ostringstream text;
-  const double steps = std::round(duration / options.h);
-  if (std::abs(steps * options.h - duration) > 1e-9 * duration) {
-    text << "duration = " << duration << " s is no whole number of steps of h = " << options.h
-         << " s; the nearest is " << steps * options.h << " s";
+  const double steps = std::round(duration / h);
+  if (std::abs(steps * h - duration) > 1e-9 * duration) {
+    text << "duration = " << duration << " s is no whole number of steps of h = " << h
+         << " s; the nearest is " << steps * h << " s";
     throw ModelError(text.str());
   }
   if (steps > 1e12) {
@@ -92,16 +78,12 @@ void add_contacts(const StepReport& report, double t, const Plan& plan, RunOutco
 
 Plan make_plan(double duration, const SimulateOptions& options) {
   check_numbers(duration, options);
-  check_no_contradiction(options);
   Plan plan;
-  plan.steps = count_steps(duration, options);
+  plan.step = options.step;
+  plan.steps = count_steps(duration, options.step.h);
   plan.record_every = options.record_every;
   plan.record_contacts = options.record_contacts;
   plan.rows = (plan.steps + options.record_every - 1) / options.record_every + 1;
-  plan.step = options.step;
-  plan.step.h = options.h;
-  plan.step.law = options.law;
-  plan.step.collisions = options.collisions;
   return plan;
 }
 

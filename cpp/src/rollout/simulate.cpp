@@ -46,6 +46,11 @@ Trajectory simulate(const Model& model, const State& start, double duration,
   return out;
 }
 
+Trajectory simulate(const Model& model, const State& start, double duration,
+                    const StepOptions& step) {
+  return simulate(model, start, duration, SimulateOptions{.step = step});
+}
+
 void simulate(const Model& model, const State& start, double duration,
               const SimulateOptions& options, Trajectory& out) {
   Plan plan = make_plan(duration, options);

@@ -143,7 +143,7 @@ void located(const Document& document, const std::function<void()>& add) {
 
 }  // namespace
 
-ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& options) {
+ModelBuilder read_urdf(const std::string& path_or_text, const UrdfOptions& options) {
   const Source source = read_source(path_or_text);
   const Document document(source);
   Warnings warnings;
@@ -176,6 +176,10 @@ ModelBuilder load_urdf(const std::string& path_or_text, const UrdfOptions& optio
   if (options.srdf) add_srdf(*options.srdf, document, builder);
   located(document, [&] { builder.check(); });
   return builder;
+}
+
+Model load_urdf(const std::string& path_or_text, const UrdfOptions& options) {
+  return read_urdf(path_or_text, options).build();
 }
 
 }  // namespace saltus

@@ -12,6 +12,7 @@ import saltus
 from saltus.plots.figure import new_figure
 from saltus.records.files import check_folder
 from saltus.records.impacts import count_line
+from saltus.records.tables import counted
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
@@ -103,11 +104,16 @@ def info(chosen: argparse.Namespace) -> int:
     """Print what a model consists of."""
     model = _load(chosen)
     mass = sum(link.mass for link in model.links)
-    print(
-        f"{model.name}: {len(model.links)} links, {len(model.joints)} joints, {model.n_q} "
-        f"coordinates, {model.n_v} velocities, {len(model.shapes)} shapes, "
-        f"{model.n_pairs} gaps, {mass:g} kg"
-    )
+    counts = {
+        "link": len(model.links),
+        "joint": len(model.joints),
+        "coordinate": model.n_q,
+        "velocity": model.n_v,
+        "shape": len(model.shapes),
+        "gap": model.n_pairs,
+    }
+    parts = [counted(number, noun) for noun, number in counts.items()]
+    print(f"{model.name}: {', '.join(parts)}, {mass:g} kg")
     _print_solvers(model)
     print(f"default contact: {_in_words(model.default_contact)}")
     _print_table(
@@ -158,7 +164,8 @@ def _print_impacts(run: saltus.Trajectory, *, everything: bool) -> None:
         if impact.contacts > 1:
             print(f"{'':10}    {count_line(impact)}")
     if shown < len(run.impacts):
-        print(f"{'':10}  ... {len(run.impacts) - shown} more impacts (--all-impacts prints them)")
+        left = len(run.impacts) - shown
+        print(f"{'':10}  ... {left} more impact{'s' * (left > 1)} (--all-impacts prints them)")
 
 
 def _print_solvers(model: saltus.Model) -> None:

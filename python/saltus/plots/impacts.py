@@ -17,7 +17,7 @@ from saltus._core import Impact, ModelError
 from saltus.plots.figure import finish, new_figure
 from saltus.records.impacts import count_line
 from saltus.records.recording import Recording
-from saltus.records.tables import Array
+from saltus.records.tables import Array, counted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -118,7 +118,9 @@ def plot_impacts(
     axes.set_xlim(run.t[0], max(run.t[-1], run.t[0] + 1e-9))
     axes.set_xlabel("time [s]", loc="left")
     axes.set_title(
-        f"{len(run.impacts)} impacts, {len(run.impulses)} impulses", loc="left", fontsize="medium"
+        f"{counted(len(run.impacts), 'impact')}, {counted(len(run.impulses), 'impulse')}",
+        loc="left",
+        fontsize="medium",
     )
     return finish(figure, path)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from saltus._core import Impact
+from saltus.records.tables import counted
 
 MOST_ROWS = 30  # of a table that print makes; a cradle of 1000 balls has 999 impulses at once
 
@@ -34,7 +35,7 @@ def count_line(impact: Impact) -> str:
     -------
     str
     """
-    counts = f"{_count(len(impact.pairs), 'impulse')} on {_count(impact.contacts, 'contact')}"
+    counts = f"{counted(len(impact.pairs), 'impulse')} on {counted(impact.contacts, 'contact')}"
     certificate = getattr(impact, "certificate", None)
     return f"{counts}; {certificate}" if certificate else counts
 
@@ -77,10 +78,6 @@ def impact_table(impact: Impact, *, most: int | None = None) -> str:
 def _cells(impact: Impact, i: int) -> tuple[str, str, str, str]:
     friction = ", ".join(f"{value:.3g}" for value in impact.tangentials[i] + 0.0)
     return str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}", f"({friction})"
-
-
-def _count(n: int, noun: str) -> str:
-    return f"{n} {noun}" if n == 1 else f"{n} {noun}s"
 
 
 def _printed(self: Impact) -> str:

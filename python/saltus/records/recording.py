@@ -20,6 +20,7 @@ from saltus.records.tables import (
     RUNGS,
     SETTLING,
     Array,
+    counted,
     index_of,
     names_of_pairs,
 )
@@ -111,12 +112,13 @@ class Recording:
     def summary(self) -> str:
         """Return one line that says how long, how many impacts and how exact."""
         law = ImpactLaw(self.options.law).name
+        shorter = len(self.fallbacks)
         span = f"{self.t[0]:g} to {self.t[-1]:g} s" + ("" if self.complete else " (stopped)")
         return (
-            f"{span}, h = {self.options.h:g} s, {law}, {len(self)} rows, {self.q.shape[1]} "
-            f"coordinates, {len(self.impacts)} impacts with {len(self.impulses)} impulses, "
-            f"energy error {self.energy_error:.1e}"
-            + (f", {len(self.fallbacks)} steps by shorter arcs" if len(self.fallbacks) else "")
+            f"{span}, h = {self.options.h:g} s, {law}, {counted(len(self), 'row')}, "
+            f"{counted(self.q.shape[1], 'coordinate')}, {counted(len(self.impacts), 'impact')} "
+            f"with {counted(len(self.impulses), 'impulse')}, energy error {self.energy_error:.1e}"
+            + (f", {counted(shorter, 'step')} by shorter arcs" if shorter else "")
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:

@@ -38,6 +38,13 @@ LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
 
+def counted(number: int, noun: str) -> str:
+    """Return "1 row", "2 rows", "2 velocities"."""
+    if number == 1:
+        return f"{number} {noun}"
+    return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
+
+
 def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:
     """Name the pairs that `events["pair"]` refer to, counting anew where they are too many."""
     if model.n_pairs <= LISTED_PAIRS:

@@ -17,6 +17,7 @@ from saltus._core import (
     StepError,
     StepOptions,
 )
+from saltus.records.tables import counted
 from saltus.runs.batch_trajectory import BatchTrajectory
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.simulate import Law, StepBounds, check_types, keep_rows
@@ -64,8 +65,8 @@ def simulate_batch(
     h : float
         [s] step.
     law : ImpactLaw, str or callable
-        Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
-        `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
+        Which energy impacts conserve, see `ImpactLaw`. A callable is given an `ImpactProblem` and
+        returns the momenta after.
     collisions : bool
         False: bodies pass through each other.
     record_every : int
@@ -141,18 +142,17 @@ def simulate_batch(
 
 def _tell(batch: BatchTrajectory) -> None:
     """Say what did not end, so that nobody takes NaN for numbers."""
-    runs, failures = len(batch), batch.failures
-    stopped = runs - int(batch.complete.sum()) - len(failures)
+    runs, failures = counted(len(batch), "run"), batch.failures
+    stopped = len(batch) - int(batch.complete.sum()) - len(failures)
     if stopped:
         print(
-            f"saltus: stopped; {stopped} of {runs} runs had not ended, the batch holds what was "
-            "done",
+            f"saltus: stopped; {stopped} of {runs} had not ended, the batch holds what was done",
             file=sys.stderr,
         )
     if failures:
         first, message = next(iter(failures.items()))
         warnings.warn(
-            f"{len(failures)} of {runs} runs failed, see failures; run {first}: {message}",
+            f"{len(failures)} of {runs} failed, see failures; run {first}: {message}",
             RuntimeWarning,
             stacklevel=3,
         )

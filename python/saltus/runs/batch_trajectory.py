@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import ImpactLaw, Model, StepOptions
-from saltus.records.tables import Array, index_of
+from saltus.records.tables import Array, counted, index_of
 from saltus.runs.trajectory import Trajectory
 
 
@@ -115,9 +115,10 @@ class BatchTrajectory:
         went = [f"{len(self.failures)} failed"] if self.failures else []
         went += [f"{stopped} stopped"] if stopped else []
         return (
-            f"{len(self)} runs" + (f" ({', '.join(went)})" if went else "") + ", "
+            counted(len(self), "run") + (f" ({', '.join(went)})" if went else "") + ", "
             f"{self.t[0]:g} to {self.t[-1]:g} s, h = {self.options.h:g} s, {law}, "
-            f"{len(self.t)} rows, {self.q.shape[2]} coordinates, {self.impacts.sum()} impacts"
+            f"{counted(len(self.t), 'row')}, {counted(self.q.shape[2], 'coordinate')}, "
+            f"{counted(self.impacts.sum(), 'impact')}"
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:

@@ -72,8 +72,8 @@ def simulate(
     h : float
         [s] step.
     law : ImpactLaw, str or callable
-        Which energy impacts conserve: `nodal_energy`, `discrete_energy`, `shadow_energy`,
-        `compensated`. A callable is given an `ImpactProblem` and returns the momenta after.
+        Which energy impacts conserve, see `ImpactLaw`. A callable is given an `ImpactProblem` and
+        returns the momenta after.
     collisions : bool
         False: bodies pass through each other.
     record_every : int

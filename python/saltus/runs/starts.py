@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._core import Model, ModelError, State
-from saltus.records.tables import Array
+from saltus.records.tables import Array, counted
 
 Starts = Mapping[str, ArrayLike] | ArrayLike | None
 
@@ -49,7 +49,7 @@ def to_states(model: Model, q: Starts, v: Starts) -> list[State]:
         )
     runs = max(rows.values())
     if min(rows.values()) != runs:
-        raise ModelError(f"q has {rows['q']} rows and v has {rows['v']}; a row is a run")
+        raise ModelError(f"q has {counted(rows['q'], 'row')} and v has {rows['v']}; a row is a run")
     return _core.states(model, *(np.broadcast_to(x, (runs, x.shape[-1])) for x in arrays))
 
 

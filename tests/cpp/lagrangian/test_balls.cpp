@@ -130,5 +130,13 @@ TEST(BallShadow, FreeMotionAndKappa) {
   }
 }
 
+TEST(Balls, MomentaAloneAreLvToTheLastBit) {
+  for (int k = 0; k < 100; ++k) {
+    const RandomTree t = varied_ball_tree(k);
+    const VecX p = momenta(t.tree, pack(t.tree, t.mass), t.q, t.v);
+    EXPECT_EQ(p, lagrangian(t.tree, t.mass, t.q, t.v).L_v) << k;
+  }
+}
+
 }  // namespace
 }  // namespace saltus

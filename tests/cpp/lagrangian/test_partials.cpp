@@ -112,6 +112,22 @@ TEST(Partials, OfDifferentBranchesVanish) {
   EXPECT_GT(apart, 10);  // or the test tells nothing
 }
 
+TEST(Momenta, AreLvToTheLastBitAndTheSlopeOfTheNaiveValue) {
+  for (int k = 0; k < 100; ++k) {
+    const RandomTree t = varied_tree(k);
+    const VecX p = momenta(t.tree, pack(t.tree, t.mass), t.q, t.v);
+    EXPECT_EQ(p, lagrangian(t.tree, t.mass, t.q, t.v).L_v) << k;
+    VecX slope(t.q.size());
+    for (int i = 0; i < t.q.size(); ++i) {
+      const VecX e = VecX::Unit(t.q.size(), i);
+      slope[i] = test::derivative(
+          [&](double h) { return test::naive_lagrangian(t.tree, t.mass, t.q, t.v + h * e); }, step);
+    }
+    const double scale = std::abs(test::naive_lagrangian(t.tree, t.mass, t.q, t.v));
+    EXPECT_LT(relative_error(p, slope, scale), tolerance(t.tree)) << k;
+  }
+}
+
 TEST(MassMatrix, IsPositiveDefiniteAndLvv) {
   for (int k = 0; k < 200; ++k) {
     const RandomTree t = varied_tree(k);

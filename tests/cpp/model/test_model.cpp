@@ -110,7 +110,7 @@ TEST(State, MistakesAreNamed) {
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(3), VecX::Zero(2)); }),
             "q has 3 entries; the model has 2 coordinates");
   EXPECT_EQ(refusal([&] { model.state(VecX::Zero(2), VecX::Zero(1)); }),
-            "v has 1 entries; the model has 2 velocities");
+            "v has 1 entry; the model has 2 velocities");
 }
 
 // Every door checks its arrays, so that no index is ever out of range behind it.
@@ -119,10 +119,10 @@ TEST(Model, ChecksEveryArray) {
   const VecX good = VecX::Zero(2), shorter = VecX::Zero(1), bad = Eigen::Vector2d(0, -inf);
   for (const VecX& x : {shorter, bad}) {
     const std::string problem =
-        x.size() == 1 ? " has 1 entries; the model has 2 coordinates" : "[1] = -inf is not finite";
+        x.size() == 1 ? " has 1 entry; the model has 2 coordinates" : "[1] = -inf is not finite";
     EXPECT_EQ(refusal([&] { model.lagrangian(x, good); }), "q" + problem);
     const std::string rates =
-        x.size() == 1 ? " has 1 entries; the model has 2 velocities" : "[1] = -inf is not finite";
+        x.size() == 1 ? " has 1 entry; the model has 2 velocities" : "[1] = -inf is not finite";
     EXPECT_EQ(refusal([&] { model.lagrangian(good, x); }), "v" + rates);
     EXPECT_EQ(refusal([&] { model.mass_matrix(x); }), "q" + problem);
     EXPECT_EQ(refusal([&] { model.gaps(x); }), "q" + problem);

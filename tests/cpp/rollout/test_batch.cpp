@@ -65,7 +65,7 @@ TEST(Batch, HasTheSameBitsOnAnyNumberOfThreads) {
   const Model model = cradle({.balls = 3});
   const std::vector<State> starts = cradle_starts(model, 17);
   for (const ImpactLaw law : {ImpactLaw::nodal_energy, ImpactLaw::discrete_energy}) {
-    BatchOptions options{.run = {.h = 0.01, .law = law}, .threads = 1};
+    BatchOptions options{.run = {.step = {.h = 0.01, .law = law}}, .threads = 1};
     const BatchTrajectory one = simulate_batch(model, starts, 2, options);
     for (const int threads : {0, 2, 3, 8}) {
       options.threads = threads;
@@ -77,12 +77,13 @@ TEST(Batch, HasTheSameBitsOnAnyNumberOfThreads) {
 TEST(Batch, EachRunIsWhatSimulateGives) {
   const Model model = cradle({.balls = 3});
   const std::vector<State> starts = cradle_starts(model, 7);
-  const BatchTrajectory batch =
-      simulate_batch(model, starts, 1, {.run = {.h = 0.01, .record_every = 7}, .threads = 3});
+  const BatchTrajectory batch = simulate_batch(
+      model, starts, 1, {.run = {.step = {.h = 0.01}, .record_every = 7}, .threads = 3});
   const VecX errors = batch.energy_error();
   for (int i = 0; i < 7; ++i) {
     const Trajectory own = batch.run(i);
-    const Trajectory alone = simulate(model, starts[i], 1, {.h = 0.01, .record_every = 7});
+    const Trajectory alone =
+        simulate(model, starts[i], 1, {.step = {.h = 0.01}, .record_every = 7});
     EXPECT_TRUE(own.complete);
     EXPECT_TRUE(same_bits(own.t, alone.t));
     EXPECT_TRUE(same_bits(own.q, alone.q));
@@ -105,7 +106,7 @@ TEST(Batch, AFailureStaysWithItsRun) {
   starts[4] = overlapping(model);
   for (const int threads : {1, 3}) {
     const BatchTrajectory batch =
-        simulate_batch(model, starts, 0.5, {.run = {.h = 0.01}, .threads = threads});
+        simulate_batch(model, starts, 0.5, {.run = {.step = {.h = 0.01}}, .threads = threads});
     const auto failures = batch.failures();
     ASSERT_EQ(failures.size(), 1u);
     EXPECT_NE(failures.at(4).find("ball_0 ~ ball_1"), std::string::npos) << failures.at(4);
@@ -123,7 +124,7 @@ TEST(Batch, ARunThatFailsOnItsWayKeepsItsRows) {
   const std::vector<State> starts = cradle_starts(model, 2);
   // an impulse is allowed, and the first impact of run 1 needs two
   const BatchTrajectory batch =
-      simulate_batch(model, starts, 2, {.run = {.h = 0.01, .step = {.max_impulses = 1}}});
+      simulate_batch(model, starts, 2, {.run = {.step = {.h = 0.01, .max_impulses = 1}}});
   EXPECT_TRUE(batch.outcome[0].complete);
   EXPECT_FALSE(batch.outcome[1].complete);
   EXPECT_NE(batch.outcome[1].failure.find("max_impulses"), std::string::npos);
@@ -136,7 +137,7 @@ TEST(Batch, ARunThatFailsOnItsWayKeepsItsRows) {
 TEST(Batch, OnRequestTheFirstFailureByIndexIsThrown) {
   const Model model = cradle({.balls = 3});
   std::vector<State> starts = cradle_starts(model, 40);
-  BatchOptions options{.run = {.h = 0.01, .step = {.max_impulses = 1}},
+  BatchOptions options{.run = {.step = {.h = 0.01, .max_impulses = 1}},
                        .on_failure = OnFailure::stop};
   // run 1 fails after 50 steps, run 20 at once
   starts[20] = overlapping(model);
@@ -159,7 +160,7 @@ TEST(Batch, ProgressIsToldByTheCallingThreadAndCanStopAll) {
   const std::vector<State> starts = cradle_starts(model, 5);
   const auto caller = std::this_thread::get_id();
   double last = 0;
-  BatchOptions options{.run = {.h = 1e-5, .record_every = 1000}, .threads = 2};
+  BatchOptions options{.run = {.step = {.h = 1e-5}, .record_every = 1000}, .threads = 2};
   options.run.progress = [&](double done) {
     EXPECT_EQ(std::this_thread::get_id(), caller);
     EXPECT_GE(done, last);
@@ -254,7 +255,8 @@ TEST(Batch, BadStartsAndNumbersAreNamedBeforeAnythingRuns) {
   expect(of({good}, {.run = {.record_every = 0}}), "record_every = 0");
   expect(of({good}, {.run = {.step = {.max_impacts = 0}}}), "max_impacts = 0");
   expect(of({good}, {}, -1), "duration = -1");
-  expect(of(std::vector<State>(100, good), {.run = {.h = 1e-6}}, 10), "100 runs of 10000001 rows");
+  expect(of(std::vector<State>(100, good), {.run = {.step = {.h = 1e-6}}}, 10),
+         "100 runs of 10000001 rows");
   EXPECT_FALSE(ran);
 }
 

@@ -22,8 +22,8 @@ Model resting_ball() {
 
 TEST(Contacts, WhatHoldsABallIsRecordedRowByRow) {
   const Model model = resting_ball();
-  const Trajectory run =
-      simulate(model, model.state(), 1, {.h = 0.01, .record_every = 8, .record_contacts = true});
+  const Trajectory run = simulate(
+      model, model.state(), 1, {.step = {.h = 0.01}, .record_every = 8, .record_contacts = true});
   ASSERT_TRUE(run.contacts);
   ASSERT_EQ(run.contacts->size(), 100u);
   for (int k = 0; k < 100; ++k) {
@@ -43,7 +43,7 @@ TEST(Contacts, WhatHoldsABallIsRecordedRowByRow) {
 TEST(Contacts, ImpulsesOfImpactsAreAmongThem) {
   const Model model = cradle({.balls = 3});
   const State start = model.state({{"swing_0", 0.3}});
-  const Trajectory run = simulate(model, start, 1, {.h = 0.01, .record_contacts = true});
+  const Trajectory run = simulate(model, start, 1, {.step = {.h = 0.01}, .record_contacts = true});
   ASSERT_EQ(run.impulses.size(), 2u);
   ASSERT_EQ(run.contacts->size(), 2u);
   for (int i = 0; i < 2; ++i) {
@@ -61,9 +61,9 @@ TEST(Contacts, ImpulsesOfImpactsAreAmongThem) {
 TEST(Contacts, ThoseOfStepsAfterTheLastRowAreLeftOut) {
   const Model model = resting_ball();
   const State start = model.state();
-  Trajectory stopped = simulate(model, start, 1, {});
+  Trajectory stopped = simulate(model, start, 1);
   int asked = 0;
-  BatchOptions batch{.run = {.h = 1e-5, .record_every = 1000, .record_contacts = true}};
+  BatchOptions batch{.run = {.step = {.h = 1e-5}, .record_every = 1000, .record_contacts = true}};
   batch.run.progress = [&](double) { return ++asked < 2; };
   simulate(model, start, 100, batch.run, stopped);
   EXPECT_FALSE(stopped.complete);
@@ -76,9 +76,10 @@ TEST(Contacts, ThoseOfStepsAfterTheLastRowAreLeftOut) {
 TEST(Contacts, MoreThanThereIsRoomForAreRefused) {
   const Model model = resting_ball();
   const std::vector<State> starts(200000, model.state());
-  const BatchOptions options{.run = {.h = 0.01, .record_every = 1000, .record_contacts = true},
-                             .threads = 1,
-                             .on_failure = OnFailure::stop};
+  const BatchOptions options{
+      .run = {.step = {.h = 0.01}, .record_every = 1000, .record_contacts = true},
+      .threads = 1,
+      .on_failure = OnFailure::stop};
   try {
     simulate_batch(model, starts, 10, options);
     ADD_FAILURE() << "nothing thrown";
@@ -95,7 +96,7 @@ TEST(Contacts, RowsBeforeAnErrorAreKept) {
   const Trajectory whole = simulate(model, start, 1, {.h = 0.01});
   Trajectory run = simulate(model, start, 0.1, {.h = 0.01});
   // an impulse is allowed, and the first impact, at 0.5046 s, needs two
-  EXPECT_THROW(simulate(model, start, 1, {.h = 0.01, .step = {.max_impulses = 1}}, run),
+  EXPECT_THROW(simulate(model, start, 1, {.step = {.h = 0.01, .max_impulses = 1}}, run),
                JammedError);
   EXPECT_FALSE(run.complete);
   ASSERT_EQ(run.t.size(), 51);
@@ -110,7 +111,7 @@ TEST(Contacts, RowsBeforeAnErrorAreKept) {
 TEST(Contacts, NumbersThatMakeNoRunLeaveTheOldOne) {
   const Model model = cradle({.balls = 3});
   Trajectory run = simulate(model, model.state(), 0.1, {.h = 0.01});
-  EXPECT_THROW(simulate(model, model.state(), -1, {.h = 0.01}, run), ModelError);
+  EXPECT_THROW(simulate(model, model.state(), -1, {.step = {.h = 0.01}}, run), ModelError);
   EXPECT_TRUE(run.complete);
   EXPECT_EQ(run.t.size(), 11);
 }

@@ -52,7 +52,7 @@ TEST(Simulate, RecordsEveryNthStepAndTheImpactsOfAll) {
   const Model model = cradle({.balls = 3});
   const State start = model.state({{"swing_0", 0.3}});
   const Trajectory all = simulate(model, start, 3, {.h = 0.01});
-  const Trajectory tenth = simulate(model, start, 3, {.h = 0.01, .record_every = 10});
+  const Trajectory tenth = simulate(model, start, 3, {.step = {.h = 0.01}, .record_every = 10});
   ASSERT_EQ(tenth.t.size(), 31);
   for (int k = 0; k <= 30; ++k) EXPECT_EQ(tenth.q.row(k), all.q.row(10 * k));
   ASSERT_EQ(tenth.impacts.size(), all.impacts.size());
@@ -62,7 +62,7 @@ TEST(Simulate, RecordsEveryNthStepAndTheImpactsOfAll) {
 TEST(Simulate, TheLastStepIsARowEvenWhereItIsNotTheNth) {
   const Model model = cradle({.balls = 2});
   const State start = model.state({{"swing_0", 0.3}});
-  const Trajectory run = simulate(model, start, 1, {.h = 0.01, .record_every = 7});
+  const Trajectory run = simulate(model, start, 1, {.step = {.h = 0.01}, .record_every = 7});
   ASSERT_EQ(run.t.size(), 16);
   EXPECT_DOUBLE_EQ(run.t[14], 0.98);
   EXPECT_DOUBLE_EQ(run.t[15], 1);
@@ -90,7 +90,7 @@ TEST(Simulate, ProgressCanStopTheRunAndKeepsWhatIsDone) {
   const Model model = cradle({.balls = 3});
   double last = -1;
   int calls = 0;
-  SimulateOptions options{.h = 1e-5, .record_every = 1000};
+  SimulateOptions options{.step = {.h = 1e-5}, .record_every = 1000};
   options.progress = [&](double done) {
     EXPECT_GE(done, last);
     last = done;
@@ -121,31 +121,19 @@ TEST(Simulate, BadDurationsAndStepsAreNamed) {
   EXPECT_NE(message(1, 0.3).find("the nearest is 0.9"), std::string::npos) << message(1, 0.3);
 }
 
-TEST(Simulate, OptionsOfTheStepThatWouldNotBeUsedAreRefused) {
-  const Model model = cradle({.balls = 2});
-  const auto message = [&](const SimulateOptions& options) -> std::string {
-    try {
-      simulate(model, model.state(), 0.02, options);
-    } catch (const ModelError& e) {
-      return e.what();
-    }
-    return "";
-  };
-  const std::string cure = "; set it in SimulateOptions, whose step is for bounds alone";
-  // 0.02 s is no whole number of steps of 0.003 s, which is not what is wrong here
-  EXPECT_EQ(message({.step = {.h = 0.003}}), "step.h = 0.003 s, but h = 0.01 s" + cure);
-  EXPECT_EQ(message({.h = 0.02, .step = {.h = 0.005}}), "step.h = 0.005 s, but h = 0.02 s" + cure);
-  EXPECT_EQ(message({.step = {.law = ImpactLaw::discrete_energy}}),
-            "step.law = discrete_energy, but law = nodal_energy" + cure);
-  EXPECT_EQ(message({.step = {.collisions = false}}),
-            "step.collisions = false, but collisions = true" + cure);
-  EXPECT_THROW(simulate_batch(model, std::vector{model.state()}, 0.02,
-                              {.run = {.step = {.collisions = false}}}),
-               ModelError);
-  // what is left alone, or the same, is no contradiction
-  const StepOptions step{.h = 0.005, .law = ImpactLaw::discrete_energy, .collisions = false};
-  EXPECT_EQ(message({.h = step.h, .law = step.law, .collisions = false, .step = step}), "");
-  EXPECT_EQ(message({.h = 0.02, .law = ImpactLaw::discrete_energy, .collisions = false}), "");
+TEST(Simulate, OptionsOfTheStepAreUsedWhicheverWayTheyAreGiven) {
+  const Model model = cradle({.balls = 3});
+  const State start = model.state({{"swing_0", 0.3}});
+  const StepOptions step{.h = 0.02, .law = ImpactLaw::discrete_energy, .max_halvings = 3};
+  const Trajectory alone = simulate(model, start, 1, step);
+  EXPECT_EQ(alone.options.h, 0.02);
+  EXPECT_EQ(alone.options.law, ImpactLaw::discrete_energy);
+  EXPECT_EQ(alone.options.max_halvings, 3);
+  EXPECT_EQ(alone.impacts.size(), 1u);
+  EXPECT_EQ(simulate(model, start, 1, {.step = step}).q, alone.q);
+  const Trajectory through = simulate(model, start, 1, {.h = 0.02, .collisions = false});
+  EXPECT_TRUE(through.impacts.empty());
+  EXPECT_THROW(simulate(model, start, 1, {.h = 0.02, .max_impacts = 0}), ModelError);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(UrdfFilters, AdjacentLinksMayBeWatched) {
 
 TEST(UrdfFilters, MistakesAreErrors) {
   const auto what = [](const std::string& block) {
-    return message_of([&] { load_urdf(balls(block)); });
+    return message_of([&] { read_urdf(balls(block)); });
   };
   const std::string x = "<group name=\"x\" links=\"a b\"/>";
   expect_contains(
@@ -130,7 +130,7 @@ TEST(Srdf, LinksThatTheRobotHasNotAreOneWarning) {
 
 TEST(Srdf, MistakesAreErrors) {
   const auto what = [](const std::string& srdf) {
-    return message_of([&] { load_urdf(balls(), {.srdf = srdf}); });
+    return message_of([&] { read_urdf(balls(), {.srdf = srdf}); });
   };
   expect_contains(what("<robot>\n<disable_collisions link1=\"a\"/></robot>"),
                   "SRDF text:2: <disable_collisions> is without attribute \"link2\"");
@@ -146,10 +146,10 @@ TEST_F(SrdfFiles, AreReadAndTellTheirName) {
   const std::string path =
       write("r.srdf", "<robot>\n<disable_collisions link1=\"a\" link2=\"c\"/></robot>");
   EXPECT_EQ(pairs("", path).size(), 4u);
-  expect_contains(message_of([&] { load_urdf(balls(), {.srdf = folder_.string()}); }),
+  expect_contains(message_of([&] { read_urdf(balls(), {.srdf = folder_.string()}); }),
                   "is a directory, not an SRDF file; SRDF files there are r.srdf");
   const std::string bad = write("bad.srdf", "<robot>\n\n<enable_collisions/></robot>");
-  expect_contains(message_of([&] { load_urdf(balls(), {.srdf = bad}); }), bad + ":3: ");
+  expect_contains(message_of([&] { read_urdf(balls(), {.srdf = bad}); }), bad + ":3: ");
 }
 
 TEST(UrdfExtension, EllipsoidsAreShapes) {
@@ -161,7 +161,7 @@ TEST(UrdfExtension, EllipsoidsAreShapes) {
   expect_near(model->shapes[0].X_JG.p, {1, 2, 3});
   const auto what = [](const std::string& attributes) {
     return message_of([&] {
-      load_urdf(robot("<link name=\"a\"/><saltus><ellipsoid " + attributes + "/></saltus>"));
+      read_urdf(robot("<link name=\"a\"/><saltus><ellipsoid " + attributes + "/></saltus>"));
     });
   };
   expect_contains(what("link=\"a\" radii=\"1 2 0\""),

@@ -116,7 +116,7 @@ TEST(UrdfFuzz, LongChainsAndManyLinks) {
     joints += joint("j" + std::to_string(i), "continuous", "l" + std::to_string(i - 1), name,
                     "<origin xyz=\"0 0 1\"/>");
   }
-  EXPECT_EQ(load_urdf(robot(links + joints)).build().n_q(), 1000);
+  EXPECT_EQ(load_urdf(robot(links + joints)).n_q(), 1000);
 }
 
 }  // namespace

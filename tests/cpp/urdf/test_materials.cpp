@@ -63,30 +63,41 @@ TEST(UrdfMaterials, OptionsSetTheDefaultContactAndAddAFloor) {
   options.root_joint = JointType::floating;
   options.floor = true;
   const ContactProperties said{0.2, 0.6};
-  EXPECT_EQ(load_urdf(robot(lone), options).build()->warnings.size(), 1u);
+  EXPECT_EQ(load_urdf(robot(lone), options)->warnings.size(), 1u);
   options.contact = said;
-  const Model model = load_urdf(robot(lone), options).build();
+  const Model model = load_urdf(robot(lone), options);
   EXPECT_TRUE(model->warnings.empty());
   EXPECT_EQ(between(model, "a ~ floor"), said);
   // the file's default gives way, its floor and its contacts of materials stay
   const Model file = load_urdf(robot(lone + "<saltus><half_space name=\"ground\"/>"
                                             "<material name=\"steel\" links=\"a\"/>"
                                             "<contact restitution=\"0.9\"/></saltus>"),
-                               options)
-                         .build();
+                               options);
   ASSERT_EQ(file->pairs.size(), 1);
   EXPECT_EQ(between(file, "a ~ ground"), said);
-  const Model lower =
-      load_urdf(robot(lone + "<saltus><half_space name=\"floor\" offset=\"-1\"/></saltus>"),
-                options)
-          .build();
+  const Model lower = load_urdf(
+      robot(lone + "<saltus><half_space name=\"floor\" offset=\"-1\"/></saltus>"), options);
   EXPECT_EQ(between(lower, "a ~ floor_"), said);
+}
+
+TEST(UrdfMaterials, LoadIsReadAndBuilt) {
+  const std::string text = robot(ball_link("a", ""));
+  UrdfOptions options;
+  options.root_joint = JointType::floating;
+  options.floor = true;
+  options.contact = ContactProperties{0.2, 0.6};
+  const Model loaded = load_urdf(text, options), built = read_urdf(text, options).build();
+  EXPECT_EQ(loaded->source, text);
+  EXPECT_EQ(loaded->shapes.size(), 1u);
+  EXPECT_EQ(loaded->shapes.size(), built->shapes.size());
+  EXPECT_EQ(loaded->joints[0].name, built->joints[0].name);
+  EXPECT_EQ(loaded.mass_matrix(loaded.neutral()), built.mass_matrix(built.neutral()));
 }
 
 TEST(UrdfMaterials, TheMassOfTheRootCountsWhereItRides) {
   ModelBuilder builder;
   builder.add_body({.name = "cart", .shape = Sphere{1}, .mass = 1});
-  const ModelBuilder base = load_urdf(robot(ball_link("base", "")));
+  const ModelBuilder base = read_urdf(robot(ball_link("base", "")));
   const double mass = base.description().links[0].inertia.mass;
   ASSERT_GT(mass, 0);
   const Model model = builder.add(base.description(), {.parent = "cart"}).build();

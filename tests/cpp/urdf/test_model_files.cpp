@@ -172,7 +172,7 @@ TEST(UrdfModelFiles, AllLoadAndStandAlone) {
   for (const auto& entry : std::filesystem::directory_iterator(SALTUS_URDF_DIR)) {
     if (entry.path().extension() != ".urdf") continue;
     ++files;
-    const ModelBuilder builder = load_urdf(entry.path().string());
+    const ModelBuilder builder = read_urdf(entry.path().string());
     EXPECT_TRUE(builder.warnings().empty()) << entry.path();
     EXPECT_EQ(builder.build()->name, entry.path().stem().string());
   }

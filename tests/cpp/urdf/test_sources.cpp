@@ -19,7 +19,7 @@ std::string with_mesh(const std::string& file, const std::string& element = "col
 
 TEST_F(UrdfFiles, ErrorsBeginWithThePathAsGiven) {
   const std::string path = write("arm.urdf", one_joint("hinge"));
-  expect_contains(message_of([&] { load_urdf(path); }),
+  expect_contains(message_of([&] { read_urdf(path); }),
                   path + ":4: joint \"j\" has type \"hinge\"");
 }
 
@@ -33,13 +33,13 @@ TEST_F(UrdfFiles, MissingFile) {
   write("arm.urdf", "");
   write("leg.urdf", "");
   const std::string path = (folder_ / "amr.urdf").string();
-  const std::string what = message_of([&] { load_urdf(path); });
+  const std::string what = message_of([&] { read_urdf(path); });
   expect_contains(what, "no file \"" + path + "\"");
   expect_contains(what, "URDF files there are arm.urdf, leg.urdf");
 }
 
 TEST_F(UrdfFiles, MissingRelativeFileSaysWhatWasTried) {
-  const std::string what = message_of([] { load_urdf("no/such/arm.urdf"); });
+  const std::string what = message_of([] { read_urdf("no/such/arm.urdf"); });
   expect_contains(what, "no file \"no/such/arm.urdf\"");
   expect_contains(what, "tried \"" + (fs::current_path() / "no/such/arm.urdf").string() + "\"");
   expect_contains(what, "no/such\" does not exist");
@@ -47,7 +47,7 @@ TEST_F(UrdfFiles, MissingRelativeFileSaysWhatWasTried) {
 
 TEST_F(UrdfFiles, Directory) {
   write("arm.urdf", "");
-  const std::string what = message_of([&] { load_urdf(folder_.string()); });
+  const std::string what = message_of([&] { read_urdf(folder_.string()); });
   expect_contains(what, "is a directory, not a URDF file");
   expect_contains(what, "arm.urdf");
 }
@@ -55,33 +55,33 @@ TEST_F(UrdfFiles, Directory) {
 TEST_F(UrdfFiles, EmptyFileAndEmptyString) {
   for (const char* text : {"", " \n\t "}) {
     const std::string path = write("arm.urdf", text);
-    expect_contains(message_of([&] { load_urdf(path); }), path + ": the file is empty");
-    expect_contains(message_of([&] { load_urdf(text); }), "empty string is neither");
+    expect_contains(message_of([&] { read_urdf(path); }), path + ": the file is empty");
+    expect_contains(message_of([&] { read_urdf(text); }), "empty string is neither");
   }
 }
 
 TEST_F(UrdfFiles, NoXml) {
   const std::string path = write("arm.urdf", "solid arm\n facet normal 0 0 1\n");
-  expect_contains(message_of([&] { load_urdf(path); }), path + ":1: not XML: text outside");
+  expect_contains(message_of([&] { read_urdf(path); }), path + ":1: not XML: text outside");
   const std::string binary = write("arm.stl", std::string("solid\0arm", 9));
-  expect_contains(message_of([&] { load_urdf(binary); }), binary + ": not a text file");
+  expect_contains(message_of([&] { read_urdf(binary); }), binary + ": not a text file");
 }
 
 TEST_F(UrdfFiles, TextThatIsNoXmlIsShownShortened) {
-  const std::string what = message_of([] { load_urdf("robot\n" + std::string(10000, 'x')); });
+  const std::string what = message_of([] { read_urdf("robot\n" + std::string(10000, 'x')); });
   expect_contains(what, "URDF text must begin with '<'");
   EXPECT_LT(what.size(), 1000u);
 }
 
 TEST_F(UrdfFiles, TooMuchText) {
   const std::string text = "<robot>" + std::string(std::size_t{65} << 20, ' ') + "</robot>";
-  expect_contains(message_of([&] { load_urdf(text); }), "more than 64 MiB");
+  expect_contains(message_of([&] { read_urdf(text); }), "more than 64 MiB");
 }
 
 TEST_F(UrdfFiles, TooDeepNesting) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "<robot>";
-  expect_contains(message_of([&] { load_urdf(text); }), "nested more than");
+  expect_contains(message_of([&] { read_urdf(text); }), "nested more than");
 }
 
 TEST_F(UrdfFiles, EntitiesAreNotExpanded) {
@@ -148,7 +148,7 @@ TEST_F(UrdfFiles, ManyThreadsMayLoad) {
       for (int k = 0; k < 50; ++k) {
         right += load(good).n_q();
         try {
-          load_urdf(bad);
+          read_urdf(bad);
         } catch (const ModelError&) {
           ++right;
         }

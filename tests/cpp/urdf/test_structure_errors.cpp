@@ -242,7 +242,7 @@ TEST(UrdfErrors, ACycleIsNamed) {
       robot("<link name=\"base\"/>" + ball_link("a") + ball_link("b") + ball_link("c") +
             joint("bc", "continuous", "b", "c") + joint("ab", "continuous", "a", "b") +
             joint("ca", "continuous", "c", "a"));
-  const std::string what = message_of([&] { load_urdf(text); });
+  const std::string what = message_of([&] { read_urdf(text); });
   expect_contains(what, "closes a cycle of links: ");
   const bool named = what.find("a -> b -> c -> a") != std::string::npos ||
                      what.find("b -> c -> a -> b") != std::string::npos ||
@@ -251,11 +251,11 @@ TEST(UrdfErrors, ACycleIsNamed) {
 }
 
 TEST(UrdfErrors, NoLinkAndNoRobot) {
-  expect_contains(message_of([] { load_urdf("<robot name=\"r\"/>"); }),
+  expect_contains(message_of([] { read_urdf("<robot name=\"r\"/>"); }),
                   "URDF text:1: the robot has no <link>");
-  expect_contains(message_of([] { load_urdf("<sdf>\n<model/></sdf>"); }),
+  expect_contains(message_of([] { read_urdf("<sdf>\n<model/></sdf>"); }),
                   "URDF text:1: no <robot> element: the root element is <sdf>");
-  expect_contains(message_of([] { load_urdf("<!-- nothing -->"); }), "no <robot> element");
+  expect_contains(message_of([] { read_urdf("<!-- nothing -->"); }), "no <robot> element");
 }
 
 }  // namespace

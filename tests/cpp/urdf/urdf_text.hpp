@@ -39,7 +39,7 @@ inline std::string one_joint(const std::string& type, const std::string& more = 
 }
 
 inline Model load(const std::string& text, const UrdfOptions& options = {}) {
-  return load_urdf(text, options).build();
+  return load_urdf(text, options);
 }
 
 /// Pose of a link with these coordinates, the others 0.

@@ -129,7 +129,8 @@ class LongCradle : public testing::TestWithParam<LongCase> {};
 TEST_P(LongCradle, EnergyStaysInABandForAHundredThousandSteps) {
   const LongCase& c = GetParam();
   const Model model = cradle(c.cradle);
-  const Trajectory run = simulate(model, model.state(c.q), 1000, {.h = 0.01, .record_every = 10});
+  const Trajectory run =
+      simulate(model, model.state(c.q), 1000, {.step = {.h = 0.01}, .record_every = 10});
   EXPECT_LT(run.energy_error(), c.band);
   EXPECT_GT(run.impacts.size(), 1500u);
   EXPECT_LT(run.residual, 1e-13);

@@ -118,8 +118,8 @@ TEST(Stepper, TouchingBallsInLineComeOutSortedUnderBothLaws) {
 
 TEST(Stepper, ABallBouncesToItsHeightAndKeepsItsEnergy) {
   const Model model = bouncing_ball();
-  const Trajectory run =
-      simulate(model, model.state({{"height", 1.1}}), 100, {.h = 0.01, .record_every = 1});
+  const Trajectory run = simulate(model, model.state({{"height", 1.1}}), 100,
+                                  {.step = {.h = 0.01}, .record_every = 1});
   // The midpoint rule is exact for free fall, so that only rounding is left: 110 bounces.
   EXPECT_LT(run.energy_error(), 1e-12);
   EXPECT_NEAR(run.impacts[0].t, std::sqrt(2 / 9.81), 1e-12);
@@ -194,7 +194,7 @@ TEST(Stepper, AngularMomentumOfASpinningCradleIsExactOverAHundredThousandSteps) 
   }
   const Model model = b.build();
   const State start = model.state({{"swing_0", 0.4}}, {{"turn", 1}});
-  const Trajectory run = simulate(model, start, 1000, {.h = 0.01, .record_every = 1000});
+  const Trajectory run = simulate(model, start, 1000, {.step = {.h = 0.01}, .record_every = 1000});
   EXPECT_GT(run.impacts.size(), 100u);
   const VecX p = run.p.col(model.coordinate("turn"));
   EXPECT_LT((p.array() - p[0]).abs().maxCoeff(), 1e-12 * std::abs(p[0]));

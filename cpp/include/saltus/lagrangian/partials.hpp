@@ -21,6 +21,10 @@ struct LagrangianPartials {
 SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const PackedTree& packed,
                                             const VecRef& q, const VecRef& v);
 
+/// p = L_v alone (n_v), in O(n): the same bits as above.
+SALTUS_EXPORT VecX momenta(const Tree& tree, const PackedTree& packed, const VecRef& q,
+                           const VecRef& v);
+
 /// M(q) = L_vv, (n_v, n_v).
 SALTUS_EXPORT MatX mass_matrix(const Tree& tree, const PackedTree& packed, const VecRef& q);
 

@@ -163,4 +163,7 @@ SALTUS_EXPORT void check_vector(const VecRef& x, int n, const std::string& what,
 /// "a, b, c": the alternatives in an error message, at most 20 of them.
 SALTUS_EXPORT std::string list_names(const std::vector<std::string>& names);
 
+/// "1 pair", "2 pairs", "2 entries", for messages.
+SALTUS_EXPORT std::string counted(long number, const std::string& noun);
+
 }  // namespace saltus

@@ -9,25 +9,24 @@
 namespace saltus {
 
 struct SimulateOptions {
-  double h = 0.01;  ///< [s]
-  ImpactLaw law = ImpactLaw::nodal_energy;
-  bool collisions = true;
+  StepOptions step = {};         ///< of every step
   int record_every = 1;          ///< steps between recorded rows; the last is always one
   bool record_contacts = false;  ///< Trajectory::contacts, of all steps
-  /// Order, bounds and tolerances; the function of a custom law. Its h, law and collisions are
-  /// those above: leave them, or set the same.
-  StepOptions step = {};
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.
   std::function<bool(double)> progress = {};
 };
 
 /// Runs round(duration / h) steps from `start`; row 0 is `start`.
-/// @throws ModelError on duration or h not positive and finite, a duration that is no whole number
-///         of steps (to 1e-9), h, law or collisions set in options.step otherwise than in options;
-///         rows and contacts of more than 16 GB; what Stepper::advance throws.
+/// @throws ModelError on options of the step out of range, a duration that is not positive and
+///         finite, or no whole number of steps (to 1e-9); rows and contacts of more than 16 GB;
+///         what Stepper::advance throws.
 SALTUS_EXPORT Trajectory simulate(const Model& model, const State& start, double duration,
                                   const SimulateOptions& options = {});
+
+/// The same where nothing but the step has options: simulate(model, start, 10, {.h = 0.001}).
+SALTUS_EXPORT Trajectory simulate(const Model& model, const State& start, double duration,
+                                  const StepOptions& step);
 
 /// The same, written to `out`. Where a step throws, `out` holds the rows up to the last before it
 /// and is not `complete`; where the numbers make no run, `out` is as it was.

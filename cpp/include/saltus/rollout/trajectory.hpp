@@ -25,7 +25,7 @@ struct SALTUS_EXPORT Trajectory {
   VecX t;                       ///< (rows) [s]
   MatX q, v, p;                 ///< (rows, n_q), of v and p n_v
   VecX kinetic, potential;      ///< (rows) [J]
-  VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::shadow_energy
+  VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::energies
   std::vector<Impact> impacts;  ///< in order of time
   std::vector<ContactImpulse> impulses;
   std::vector<Settling> settlings;        ///< in order of time

@@ -1,4 +1,4 @@
-// URDF to ModelBuilder.
+// URDF to ModelBuilder and Model.
 //
 // urdfdom parses; what it lets pass or drops (negative mass, zero axis, unknown mimic, a joint that
 // closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
@@ -53,7 +53,7 @@ struct UrdfOptions {
   TreeSolver solver = TreeSolver::automatic;
   /// Of links for which the file has no `<mesh use=...>`.
   MeshUse meshes = MeshUse::hull;
-  /// SRDF, a file or text as load_urdf's argument: its `<disable_collisions>`,
+  /// SRDF, a file or text as read_urdf's argument: its `<disable_collisions>`,
   /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
   /// Half-spaces stay watched; links that the robot has not are named in a warning.
   std::optional<std::string> srdf = {};
@@ -63,11 +63,16 @@ struct UrdfOptions {
   bool floor = false;
 };
 
-/// Reads a URDF file, or URDF text where the argument begins with '<' (after white space).
+/// Reads a URDF file, or URDF text where the argument begins with '<' (after white space), into a
+/// builder, to add to before it is built.
 /// Bounds: 64 MiB of text, elements nested as deep as tinyxml2 goes (500; 100 in old versions);
 /// entities are not expanded.
 /// @throws ModelError with "file:line:" where known ("URDF text:line:"), element and name.
-SALTUS_EXPORT ModelBuilder load_urdf(const std::string& path_or_text,
+SALTUS_EXPORT ModelBuilder read_urdf(const std::string& path_or_text,
                                      const UrdfOptions& options = {});
+
+/// The model of read_urdf(...).build(). What was understood but is not used is in its `warnings`.
+/// @throws as read_urdf and ModelBuilder::build
+SALTUS_EXPORT Model load_urdf(const std::string& path_or_text, const UrdfOptions& options = {});
 
 }  // namespace saltus

@@ -1,6 +1,7 @@
 // How to step: the step size, the law at impacts, bounds and tolerances with their reasons.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "saltus/error.hpp"
@@ -17,6 +18,16 @@ enum class ImpactLaw {
   compensated,      ///< (11c) with arcs of L + (h^2 - tau^2) kappa / 24: symplectic, and O(h^4)
   custom,           ///< a function of the user's, StepOptions::custom
 };
+
+/// A row of the table of laws, which is in terms/options.cpp.
+struct LawEntry {
+  ImpactLaw law;
+  const char* name;     ///< "nodal_energy"
+  const char* meaning;  ///< for people, in a sentence
+};
+
+/// All of them, in the order of ImpactLaw.
+SALTUS_EXPORT std::span<const LawEntry> impact_laws();
 
 /// "nodal_energy", ...
 SALTUS_EXPORT std::string law_name(ImpactLaw law);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <numeric>
 
 #include "saltus/variational/certificate.hpp"
 #include "variational/law/contact_problem.hpp"
@@ -32,6 +33,41 @@ std::vector<int> reached(const ImpactScratch& s) {
   return list;
 }
 
+/// Contacts that feel each other, through others too, have one number.
+std::vector<int> coupled_groups(const ContactBlocks& W) {
+  std::vector<int> group(static_cast<std::size_t>(W.size()));
+  std::iota(group.begin(), group.end(), 0);
+  for (int i = 0; i < W.size(); ++i) {
+    for (int k = W.start[i]; k < W.start[i + 1]; ++k) {
+      const int j = W.contact[k], from = group[j], to = group[i];
+      // what two contacts on different sides of a body leave of each other may be rounding
+      const double scale = W.own[i].trace() * W.own[j].trace();
+      if (from == to || !(W.block[k].squaredNorm() > 1e-24 * scale)) continue;
+      std::replace(group.begin(), group.end(), from, to);
+    }
+  }
+  return group;
+}
+
+/// True where impulses could have come in another order that matters: at some time two contacts
+/// approached that feel each other.
+bool order_was_free(const Node& node, const ImpactScratch& s, const std::vector<int>& group) {
+  const ContactBlocks& W = s.friction.W;
+  VecX u(W.size());
+  for (int i = 0; i < W.size(); ++i) u[i] = node.contacts[i].u;
+  std::vector<int> approaching;
+  for (const FrictionImpulse& each : s.friction.impulses) {
+    approaching.assign(group.size(), 0);
+    for (int i = 0; i < W.size(); ++i) {
+      if (u[i] < -W.rest[i] && ++approaching[group[i]] > 1) return true;
+    }
+    for (int k = W.start[each.contact]; k < W.start[each.contact + 1]; ++k) {
+      u[W.contact[k]] += W.block[k].row(0).dot(each.p);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 // Angles depend on G alone, so that M = 1 and N = sqrt(G) stand for the bodies, however many.
@@ -46,6 +82,21 @@ std::string certify(const ImpactScratch& s) {
   const VecX root = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   const MatX N = eigen.eigenvectors() * root.asDiagonal() * eigen.eigenvectors().transpose();
   return describe(classify_impact(MatX::Identity(m, m), N, restitution));
+}
+
+// Of impacts with friction no theory tells for all velocities whether the order matters. This
+// tells whether it did for those that were. Contacts without rebound have no order.
+std::string certify_with_friction(const Node& node, const ImpactScratch& s) {
+  const ContactBlocks& W = s.friction.W;
+  const std::vector<int> group = coupled_groups(W);
+  std::vector<char> hit(group.size(), 0);
+  for (const FrictionImpulse& each : s.friction.impulses) hit[group[each.contact]] = 1;
+  const auto reached = std::count_if(group.begin(), group.end(), [&](int g) { return hit[g]; });
+  if (reached < 2) return "";
+  if (std::all_of(W.restitution.begin(), W.restitution.end(), [](double e) { return e == 0; })) {
+    return "unique, plastic";
+  }
+  return order_was_free(node, s, group) ? "order_dependent" : "unique";
 }
 
 }  // namespace saltus

@@ -11,4 +11,8 @@ namespace saltus {
 /// Needs the contact matrix. Allocates: for people who ask.
 std::string certify(const ImpactScratch& impact);
 
+/// The same of an impact with friction, whose contacts have still the rates before it: whether
+/// another order was possible.
+std::string certify_with_friction(const Node& node, const ImpactScratch& impact);
+
 }  // namespace saltus

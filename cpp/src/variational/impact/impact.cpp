@@ -105,8 +105,7 @@ bool resolve_with_friction(const Scene& scene, Node& node, ImpactScratch& s, Ste
   }
   constexpr ImpactLaw law = ImpactLaw::nodal_energy;
   tell_impact(node, first, law, options.law != law, report);
-  // certificates are of reflections; with friction the order is a convention
-  if (options.certify) report.certificates.push_back(node.touching > 1 ? "order_dependent" : "");
+  if (options.certify) report.certificates.push_back(certify_with_friction(node, s));
   settle_velocities(scene, node);
   return true;
 }

@@ -9,6 +9,18 @@
 namespace saltus {
 namespace {
 
+constexpr LawEntry laws[] = {
+    {ImpactLaw::nodal_energy, "nodal_energy",
+     "H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable."},
+    {ImpactLaw::discrete_energy, "discrete_energy",
+     "that of the arcs on both sides, (11c); the step is exactly symplectic."},
+    {ImpactLaw::shadow_energy, "shadow_energy",
+     "H - h^2 kappa / 24 at both ends of the step, which steps without impacts conserve."},
+    {ImpactLaw::compensated, "compensated",
+     "(11c) of arcs with L + (h^2 - tau^2) kappa / 24; exactly symplectic, energy of order h^4."},
+    {ImpactLaw::custom, "custom", "a function that was given as the law."},
+};
+
 [[noreturn]] void fail(const std::string& name, double value, const std::string& range) {
   std::ostringstream text;
   text << name << " = " << value << "; it must be " << range;
@@ -17,18 +29,11 @@ namespace {
 
 }  // namespace
 
+std::span<const LawEntry> impact_laws() { return laws; }
+
 std::string law_name(ImpactLaw law) {
-  switch (law) {
-    case ImpactLaw::nodal_energy:
-      return "nodal_energy";
-    case ImpactLaw::discrete_energy:
-      return "discrete_energy";
-    case ImpactLaw::shadow_energy:
-      return "shadow_energy";
-    case ImpactLaw::compensated:
-      return "compensated";
-    case ImpactLaw::custom:
-      return "custom";
+  for (const LawEntry& each : laws) {
+    if (each.law == law) return each.name;
   }
   return "unknown";
 }
