@@ -119,6 +119,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/stepper.cpp
+  cpp/src/variational/step/unlocated.cpp
   # rollout
   cpp/src/rollout/batch.cpp
   cpp/src/rollout/batch_trajectory.cpp

@@ -54,9 +54,12 @@ friction_residual : float
 impacts : list of Impact
 settlings : list of (float, str)
     Time [s] and name of each pair that bounced ever lower and has come to rest.
-fallbacks : list of (float, float, str)
-    Empty as a rule. A step that could not be made as it should: its start [s], the longest arc that
-    it was made of [s], and how: "halved", by arcs of half the step, a quarter, ...
+fallbacks : list of (float, float, str, float, str)
+    Empty as a rule. What could not be made as it should: its start [s], the duration of its arcs
+    [s], how, what that changed of the energy [J], and the pair that took the largest impulse.
+    "halved": the step, by arcs of half of it, a quarter, ...; as exact as with a smaller h.
+    "unlocated": one arc, by time stepping: contacts do not rebound in it. "stopped": one arc that
+    bodies in contact stand still in.
 contacts : list of ContactImpulse
     What held pairs closed over the step, a pair once, impacts left aside.
 )";
@@ -204,7 +207,8 @@ NamedReport with_names(const Model& model, const StepReport& r) {
     out.settlings.emplace_back(each.t, model.pair_name(each.pair));
   }
   for (const Fallback& each : r.fallbacks) {
-    out.fallbacks.emplace_back(each.t, each.tau, rung_name(each.rung));
+    out.fallbacks.emplace_back(each.t, each.tau, rung_name(each.rung), each.energy,
+                               each.pair < 0 ? "" : model.pair_name(each.pair));
   }
   for (const ContactImpulse& each : r.contacts) {
     out.contacts.push_back(

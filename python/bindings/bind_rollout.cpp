@@ -124,7 +124,8 @@ void bind_trajectory(py::module_& m) {
                              "structured array: row, t, impact (-1: held), and as impulses; None "
                              "where they were not recorded")
       .def_property_readonly("settlings", &rows<&T::settlings>, "structured array: t, pair")
-      .def_property_readonly("fallbacks", &rows<&T::fallbacks>, "structured array: t, tau, rung")
+      .def_property_readonly("fallbacks", &rows<&T::fallbacks>,
+                             "structured array: t, tau, rung, energy, pair")
       .def_readonly("certificates", &T::certificates, "a text an impact, none unless asked for")
       .def_readonly("iterations", &T::iterations)
       .def_readonly("residual", &T::residual)
@@ -136,7 +137,7 @@ void bind_trajectory(py::module_& m) {
 
 void bind_rollout(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(Settling, t, pair);
-  PYBIND11_NUMPY_DTYPE(Fallback, t, tau, rung);
+  PYBIND11_NUMPY_DTYPE(Fallback, t, tau, rung, energy, pair);
   PYBIND11_NUMPY_DTYPE(Impact, t, first, count, contacts, law, fallback);
   bind_trajectory(m);
   py::class_<Energies>(m, "Energies", energies_class_doc)

@@ -119,18 +119,19 @@ void bind_stepper(py::module_& m) {
       .def(py::init([](const Unchecked<Model>& model, double h, const LawChoice& law,
                        bool collisions, const Choice<ImpactOrder>& order, bool certify,
                        int max_iterations, int max_impacts, int max_halvings, int max_impulses,
-                       double rest, double simultaneous) {
+                       double rest, double simultaneous, bool strict) {
              return std::make_unique<S>(
                  to_model(model),
                  make_step_options(h, law, collisions, order, certify, max_iterations, max_impacts,
-                                   max_halvings, max_impulses, rest, simultaneous));
+                                   max_halvings, max_impulses, rest, simultaneous, strict));
            }),
            py::arg("model"), py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
            py::kw_only(), py::arg("collisions") = o.collisions,
            py::arg_v("order", o.order, "ImpactOrder.fastest"), py::arg("certify") = o.certify,
            py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
            py::arg("max_halvings") = o.max_halvings, py::arg("max_impulses") = o.max_impulses,
-           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous)
+           py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous,
+           py::arg("strict") = o.strict)
       .def("advance", &S::advance, advance_doc, py::arg("state"))
       .def_property_readonly("report", &S::report, "StepReport of the step before.")
       .def_property_readonly("model", [](const S& s) { return s.stepper.model(); })

@@ -43,6 +43,9 @@ rest : float
     Gap rates below this part of sqrt(2 E G) are rest, not approach.
 simultaneous : float
     A contact that would close within this part of h joins an impact.
+strict : bool
+    True: a step that neither whole nor halved arcs make is a `StepError`. Else its contacts are
+    resolved by time stepping, which loses order and energy; `StepReport.fallbacks` tells.
 )";
 
 constexpr auto impact_problem_doc =
@@ -129,7 +132,7 @@ void bind_step_options(py::module_& m) {
            py::arg("certify") = o.certify, py::arg("max_iterations") = o.max_iterations,
            py::arg("max_impacts") = o.max_impacts, py::arg("max_halvings") = o.max_halvings,
            py::arg("max_impulses") = o.max_impulses, py::arg("rest") = o.rest,
-           py::arg("simultaneous") = o.simultaneous)
+           py::arg("simultaneous") = o.simultaneous, py::arg("strict") = o.strict)
       .def_readonly("h", &O::h, "[s]")
       .def_readonly("law", &O::law, "`ImpactLaw.custom` for a function")
       .def_readonly("order", &O::order)
@@ -141,6 +144,7 @@ void bind_step_options(py::module_& m) {
       .def_readonly("max_impulses", &O::max_impulses)
       .def_readonly("rest", &O::rest)
       .def_readonly("simultaneous", &O::simultaneous)
+      .def_readonly("strict", &O::strict)
       .def("__repr__",
            [](const O& self) {
              const py::object h = py::float_(self.h), law = py::cast(self.law);
@@ -149,7 +153,7 @@ void bind_step_options(py::module_& m) {
            })
       .def(pickle_options<&O::h, &O::law, &O::collisions, &O::order, &O::certify,
                           &O::max_iterations, &O::max_impacts, &O::max_halvings, &O::max_impulses,
-                          &O::rest, &O::simultaneous>());
+                          &O::rest, &O::simultaneous, &O::strict>());
 }
 
 }  // namespace

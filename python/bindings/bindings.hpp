@@ -99,7 +99,7 @@ Enum to_enum(const Choice<Enum>& x, const char* what) {
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
                               const Choice<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_halvings, int max_impulses, double rest,
-                              double simultaneous);
+                              double simultaneous, bool strict);
 
 /// How links and shapes are named.
 using NameOrIndex = py::typing::Union<py::str, py::int_>;

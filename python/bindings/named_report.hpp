@@ -36,7 +36,7 @@ struct NamedReport {
   std::vector<NamedImpact> impacts;
   std::vector<std::pair<double, std::string>> settlings;
   std::vector<NamedContact> contacts;
-  std::vector<std::tuple<double, double, std::string>> fallbacks;
+  std::vector<std::tuple<double, double, std::string, double, std::string>> fallbacks;
 };
 
 NamedReport with_names(const Model& model, const StepReport& report);

@@ -42,7 +42,7 @@ void set_law(const LawChoice& law, StepOptions& options) {
 StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
                               const Choice<ImpactOrder>& order, bool certify, int max_iterations,
                               int max_impacts, int max_halvings, int max_impulses, double rest,
-                              double simultaneous) {
+                              double simultaneous, bool strict) {
   StepOptions options;
   options.h = h;
   set_law(law, options);
@@ -55,6 +55,7 @@ StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
   options.max_impulses = max_impulses;
   options.rest = rest;
   options.simultaneous = simultaneous;
+  options.strict = strict;
   return options;
 }
 

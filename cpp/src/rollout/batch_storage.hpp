@@ -14,6 +14,6 @@ void check_starts(const Model& model, std::span<const State> starts);
 BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<const State> starts);
 
 /// The part that run i writes to.
-Rows rows_of(BatchTrajectory& batch, Eigen::Index i);
+RunRows rows_of(BatchTrajectory& batch, Eigen::Index i);
 
 }  // namespace saltus

@@ -97,7 +97,7 @@ BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<cons
   return out;
 }
 
-Rows rows_of(BatchTrajectory& batch, Eigen::Index i) {
+RunRows rows_of(BatchTrajectory& batch, Eigen::Index i) {
   const Eigen::Index rows = batch.t.size();
   const auto energies = [&](MatX& x) { return Eigen::Map<VecX>(x.data() + i * rows, rows); };
   return {batch.q.middleRows(i * rows, rows), batch.v.middleRows(i * rows, rows),

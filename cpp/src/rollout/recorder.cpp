@@ -34,7 +34,7 @@ void truncate(Trajectory& run, Eigen::Index rows) {
   for (MatX* x : {&run.q, &run.v, &run.p}) x->conservativeResize(rows, Eigen::NoChange);
 }
 
-void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows& rows) {
+void record(const State& state, const EnergyMeter& meter, Eigen::Index row, RunRows& rows) {
   rows.q.row(row) = state.q;
   rows.v.row(row) = meter.v;
   rows.p.row(row) = state.p;

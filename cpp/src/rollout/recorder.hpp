@@ -17,12 +17,12 @@ Trajectory empty_trajectory(const Model& model, Eigen::Index rows);
 void truncate(Trajectory& run, Eigen::Index rows);
 
 /// Where the rows of one run go: all of a trajectory's, or a batch's share.
-struct Rows {
+struct RunRows {
   Eigen::Ref<MatX> q, v, p;                     ///< (rows, n_q)
   Eigen::Ref<VecX> kinetic, potential, shadow;  ///< (rows) [J]
 };
 
-void record(const State& state, const EnergyMeter& meter, Eigen::Index row, Rows& rows);
+void record(const State& state, const EnergyMeter& meter, Eigen::Index row, RunRows& rows);
 
 /// Contacts of steps after the last row are left out.
 void take_outcome(RunOutcome&& outcome, Trajectory& run);

@@ -111,7 +111,7 @@ VecX row_times(const Plan& plan, double t0) {
 }
 
 void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
-         Stepper& stepper, EnergyMeter& meter, Rows rows, RunOutcome& outcome) {
+         Stepper& stepper, EnergyMeter& meter, RunRows rows, RunOutcome& outcome) {
   stepper.forget();
   if (plan.record_contacts) outcome.contacts.emplace();
   State state = start;

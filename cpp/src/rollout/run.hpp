@@ -37,6 +37,6 @@ using GoOn = std::function<bool(long)>;
 /// what Stepper::advance throws. The stepper is made with plan.step; what it did before has no
 /// influence, nor has the meter's.
 void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
-         Stepper& stepper, EnergyMeter& meter, Rows rows, RunOutcome& outcome);
+         Stepper& stepper, EnergyMeter& meter, RunRows rows, RunOutcome& outcome);
 
 }  // namespace saltus

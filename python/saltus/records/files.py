@@ -43,7 +43,15 @@ if TYPE_CHECKING:
 
 FORMAT = "saltus trajectory"
 VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
-BOUNDS = ("max_iterations", "max_impacts", "max_halvings", "max_impulses", "rest", "simultaneous")
+BOUNDS = (
+    "max_iterations",
+    "max_impacts",
+    "max_halvings",
+    "max_impulses",
+    "rest",
+    "simultaneous",
+    "strict",
+)
 OPTIONS = ("h", "collisions", *BOUNDS)
 
 Kind = TypeVar("Kind", bound=Recording)
@@ -114,7 +122,9 @@ def _write(run: Recording, file: h5py.File) -> None:
         file[name] = getattr(run, name)
     file["impulses"] = run.impulses
     file["settlings"] = run.settlings
-    file["fallbacks"] = run.fallbacks.astype([*FALLBACK.descr[:2], ("rung", "S16")])
+    file["fallbacks"] = run.fallbacks.astype(
+        [(name, "S16" if name == "rung" else FALLBACK[name]) for name in FALLBACK.names or ()]
+    )
     if run.recorded_contacts is not None:
         file["contacts"] = run.recorded_contacts
     # The law by name, so that other programs can read it.
@@ -152,8 +162,7 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
-    fallbacks = file["fallbacks"][()] if "fallbacks" in file else []
-    arrays["fallbacks"] = np.asarray(fallbacks).astype(FALLBACK)
+    arrays["fallbacks"] = _fallbacks(file["fallbacks"][()] if "fallbacks" in file else None)
     if "contacts" in file:
         arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
     for array in arrays.values():
@@ -162,6 +171,7 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
     certificates = tuple(file["certificates"].asstr()[()]) if "certificates" in file else ()
     options = {name: file.attrs[name].item() for name in OPTIONS if name in file.attrs}
     options.setdefault("max_halvings", 0)  # files of before have no such steps
+    options.setdefault("strict", True)
     coordinates = tuple(file["coordinate_names"].asstr()[()])
     _refuse_angles(coordinates, file.attrs["version"], path)
     velocities = coordinates  # of files of version 1
@@ -212,6 +222,17 @@ def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> No
                 f'{path} holds joint "{joint}" as yaw, pitch and roll (format version {version}); '
                 "free and ball joints are quaternions now: run the simulation again"
             )
+
+
+def _fallbacks(stored: npt.NDArray[np.void] | None) -> npt.NDArray[np.void]:
+    """Return the table of a file, whose older versions have fewer columns or none."""
+    if stored is None:
+        return np.zeros(0, FALLBACK)
+    out = np.zeros(len(stored), FALLBACK)
+    out["pair"] = -1
+    for name in stored.dtype.names or ():
+        out[name] = stored[name]
+    return out
 
 
 def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:

@@ -77,16 +77,17 @@ class Recording:
         for name in own.dtype.names or ():
             impulses[name] = own[name]
         settlings = core.settlings.astype(SETTLING)
-        fallbacks = np.array(
-            [(row["t"], row["tau"], RUNGS[row["rung"]]) for row in core.fallbacks], FALLBACK
-        )
-        events = [impulses, settlings]
+        fallbacks = np.empty(len(core.fallbacks), FALLBACK)
+        for name in FALLBACK.names or ():
+            fallbacks[name] = core.fallbacks[name]
+        fallbacks["rung"] = np.array(RUNGS)[core.fallbacks["rung"]]
+        events = [impulses, settlings, fallbacks]
         contacts = None if core.contacts is None else core.contacts.astype(CONTACT)
         if contacts is not None:
             events.append(contacts)
         model = core.model
         pair_names = names_of_pairs(model, *events)
-        for array in (impacts, fallbacks, *events):
+        for array in (impacts, *events):
             array.flags.writeable = False
         return cls(
             model=model,
@@ -112,13 +113,15 @@ class Recording:
     def summary(self) -> str:
         """Return one line that says how long, how many impacts and how exact."""
         law = ImpactLaw(self.options.law).name
-        shorter = len(self.fallbacks)
+        shorter = int(np.count_nonzero(self.fallbacks["rung"] == "halved"))
+        lossy = len(self.fallbacks) - shorter
         span = f"{self.t[0]:g} to {self.t[-1]:g} s" + ("" if self.complete else " (stopped)")
         return (
             f"{span}, h = {self.options.h:g} s, {law}, {counted(len(self), 'row')}, "
             f"{counted(self.q.shape[1], 'coordinate')}, {counted(len(self.impacts), 'impact')} "
             f"with {counted(len(self.impulses), 'impulse')}, energy error {self.energy_error:.1e}"
             + (f", {counted(shorter, 'step')} by shorter arcs" if shorter else "")
+            + (f", {counted(lossy, 'arc')} by time stepping" if lossy else "")
         )
 
     def column(self, name: str, of: Literal["q", "v", "p"] = "q") -> Array:

@@ -22,8 +22,10 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-FALLBACK = np.dtype([("t", "f8"), ("tau", "f8"), ("rung", "U16")])
-RUNGS = ("halved",)  # names of C++'s Rung, in order
+FALLBACK = np.dtype(
+    [("t", "f8"), ("tau", "f8"), ("rung", "U16"), ("energy", "f8"), ("pair", "i4")]
+)
+RUNGS = ("halved", "unlocated", "stopped")  # names of C++'s Rung, in order
 ACTED: list[Any] = [
     ("pair", "i4"),
     ("lambda", "f8"),
@@ -50,8 +52,10 @@ def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ..
     if model.n_pairs <= LISTED_PAIRS:
         return tuple(model.pair_names)
     numbers = np.unique(np.concatenate([event["pair"] for event in events]))
+    numbers = numbers[numbers >= 0]
     for event in events:
-        event["pair"] = np.searchsorted(numbers, event["pair"])
+        named = event["pair"] >= 0
+        event["pair"][named] = np.searchsorted(numbers, event["pair"][named])
     return tuple(model.pair_name(int(number)) for number in numbers)
 
 

@@ -40,6 +40,7 @@ class StepBounds(TypedDict, total=False):
     max_impulses: int
     rest: float
     simultaneous: float
+    strict: bool
 
 
 def simulate(
@@ -88,7 +89,7 @@ def simulate(
         never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
         `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`,
-        `max_impulses`, `rest`, `simultaneous`: as in `StepOptions`.
+        `max_impulses`, `rest`, `simultaneous`, `strict`: as in `StepOptions`.
 
     Returns
     -------

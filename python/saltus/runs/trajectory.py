@@ -54,14 +54,15 @@ class Trajectory(Recording):
         impacts and the sums that held pairs closed over each step (`ContactImpulse`). "row" (the
         first recorded row at or after the end of its step), "t" [s] (of the impact, or the end of
         the step), "impact" (row of `impacts`; -1: what held a pair closed), and "pair", "lambda",
-        "tangential", "point", "normal" as in `impulses`. Without friction what ends the bounces of
-        a pair that settles is among them, and pulls: "lambda" < 0. ModelError where they were not
-        recorded.
+        "tangential", "point", "normal" as in `impulses`. ModelError where they were not recorded.
     settlings : numpy.ndarray
         Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
     fallbacks : numpy.ndarray
-        Structured, empty as a rule: steps that could not be made as they should. "t" [s] where
-        each starts, "tau" [s] the longest arc that it was made of, "rung": "halved".
+        Structured, empty as a rule: what could not be made as it should. "t" [s] where it starts,
+        "tau" [s] its longest arc, "rung": "halved", a step by shorter arcs, as exact as with a
+        smaller h; "unlocated", an arc by time stepping, in which contacts do not rebound;
+        "stopped", an arc that bodies in contact stand still in. Of the last two "energy" [J] is
+        what the arc changed of it, and "pair" (index, -1) took the largest impulse.
     certificates : tuple of str
         Of each impact whether its outcome is unique; empty unless `certify` asked for it.
     iterations : int

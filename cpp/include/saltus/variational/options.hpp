@@ -57,6 +57,9 @@ struct StepOptions {
   /// How often a step that cannot be made is tried anew with arcs of half the duration: by default
   /// down to h / 64. 0: never. StepReport::fallbacks tells.
   int max_halvings = 6;
+  /// True: a step that neither whole nor halved arcs make is an error. Else its contacts are
+  /// resolved by time stepping, which loses order and energy, and StepReport::fallbacks tells.
+  bool strict = false;
   int max_impulses = 100000;  ///< impulses an impact; Galperin's 10^4-th part of pi needs 31415
 
   /// epsilon_u: |u| below this part of sqrt(2 E G) is rest, not approach; 1e-10 is far above the

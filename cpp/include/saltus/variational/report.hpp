@@ -43,16 +43,22 @@ struct Settling {
 /// How a step was made that could not be made as it should.
 enum class Rung {
   halved,  ///< by arcs of half the step, a quarter, ...: all is as exact as with a smaller h
+  /// An arc by time stepping: contacts that close in it do not rebound, and no instant is sought.
+  /// Of first order in its short duration; energy is only lost.
+  unlocated,
+  stopped,  ///< an arc that bodies in contact stand still in: their kinetic energy is lost
 };
 
-/// "halved"
+/// "halved", "unlocated", "stopped"
 SALTUS_EXPORT std::string rung_name(Rung rung);
 
-/// A step that was made otherwise.
+/// A step, or an arc of it, that was made otherwise.
 struct Fallback {
-  double t;    ///< [s] where it starts
-  double tau;  ///< [s] the longest arc that it was made of
-  Rung rung;
+  double t;       ///< [s] where it starts
+  double tau;     ///< [s] the longest arc that the step was made of, or that arc
+  Rung rung;      ///< of a step `halved`
+  double energy;  ///< [J] what the arc changed of the energy; 0 of `halved`
+  int pair;       ///< index in model->pairs of the arc's largest impulse; -1 of `halved`
 };
 
 /// Written by Stepper; valid until its next step.
@@ -72,7 +78,6 @@ struct StepReport {
   /// Of pairs that were held closed, each once: the sum of its impulses in arcs and between them,
   /// those of impacts left aside. Each acts where the contact is as its arc starts, or between
   /// arcs; point and normal are the mean of these, weighted by lambda.
-  /// What ends the bounces of a pair without friction is told apart, with lambda < 0.
   std::vector<ContactImpulse> contacts;
 };
 

@@ -15,8 +15,10 @@ constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
 
 }  // namespace
 
-bool Stepper::Impl::is_last_attempt() const {
-  return longest <= std::ldexp(scene.options.h, -scene.options.max_halvings);
+/// Shorter arcs can be tried yet, or time stepping.
+bool Stepper::Impl::halves_left() const {
+  return is_last_attempt || !scene.options.strict ||
+         longest > std::ldexp(scene.options.h, -scene.options.max_halvings);
 }
 
 void Stepper::Impl::note_start() {
@@ -33,7 +35,7 @@ void Stepper::Impl::note_start() {
 /// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
 void Stepper::Impl::check_energy() {
   if (flight.work.rows.active.empty()) return;
-  const double most = is_last_attempt() ? 0.3 : 0.02;
+  const double most = halves_left() ? 0.02 : 0.3;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double h = scene.options.h;
   const double slow = h * scene.model.mass.gravity.norm() + scene.most_touch / h;
@@ -45,7 +47,7 @@ void Stepper::Impl::check_energy() {
 /// No arc ends with bodies deeper in each other than it started. Where parts come to face each
 /// other that overlap already no shorter arc helps: that is an error where anybody can see it.
 void Stepper::Impl::check_gaps() {
-  const double most = is_last_attempt() ? visible_touches : sunk_touches;
+  const double most = halves_left() ? sunk_touches : visible_touches;
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.phi < deepest - most * pool[c.slot].touch) fail_sinking(c);

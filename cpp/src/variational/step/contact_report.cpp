@@ -22,9 +22,7 @@ void add(const ContactImpulse& more, ContactImpulse& known) {
 void tell(const ContactImpulse& impulse, StepReport& report) {
   if (impulse.lambda == 0 && impulse.p_W.isZero(0)) return;
   for (ContactImpulse& known : report.contacts) {
-    // what pulls is told apart: the mean of a push and a pull is nowhere
-    const bool alike = (known.lambda < 0) == (impulse.lambda < 0);
-    if (known.pair == impulse.pair && alike) return add(impulse, known);
+    if (known.pair == impulse.pair) return add(impulse, known);
   }
   report.contacts.push_back(impulse);
 }
@@ -77,7 +75,11 @@ void tell_settlings(const PairPool& pool, const Flight& f, StepReport& report) {
 void tell_half_kick(const HalfKick& kick, StepReport& report) {
   if (kick.impulses.empty()) return;
   tell_residual(kick.W, kick.residual, report);
-  for (const ContactImpulse& each : kick.impulses) tell(each, report);
+  tell(kick.impulses, report);
+}
+
+void tell(const std::vector<ContactImpulse>& impulses, StepReport& report) {
+  for (const ContactImpulse& each : impulses) tell(each, report);
 }
 
 }  // namespace saltus

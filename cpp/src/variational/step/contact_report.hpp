@@ -17,6 +17,9 @@ void tell_launch(const Launch& launch, const Flight& flight, StepReport& report)
 
 void tell_settlings(const PairPool& pool, const Flight& flight, StepReport& report);
 
+/// Of impulses that held contacts closed, each once.
+void tell(const std::vector<ContactImpulse>& impulses, StepReport& report);
+
 void tell_half_kick(const HalfKick& kick, StepReport& report);
 
 }  // namespace saltus

@@ -48,6 +48,12 @@ void Stepper::Impl::raise(const std::string& why, const std::string& advice, int
   throw StepError(why + "; " + advice, node.t, flight.work.arc.residual, count);
 }
 
+/// Rebounds that no end is found of may be left out where some contact takes energy anyhow.
+bool Stepper::Impl::loses_energy() const {
+  return std::any_of(node.contacts.begin(), node.contacts.begin() + node.touching,
+                     [](const Contact& c) { return c.restitution < 1; });
+}
+
 void Stepper::Impl::fail(FlightOutcome outcome) {
   if (outcome == FlightOutcome::law_not_met) {
     fail_law(flight.work.unlawful, flight.work.rows.residual);
@@ -101,25 +107,26 @@ void Stepper::Impl::fail_jammed() {
   text << "the impact at t = " << node.t << " s does not end within " << most << " impulses: ";
   const bool opens = can_open(scene, node, impact);
   if (has_friction(node) && opens) {
-    const auto begin = node.contacts.begin(), end = begin + node.touching;
-    const auto fastest =
-        std::min_element(begin, end, [](const Contact& a, const Contact& b) { return a.u < b.u; });
+    const auto begin = node.contacts.begin(), last_one = begin + node.touching;
+    const auto fastest = std::min_element(
+        begin, last_one, [](const Contact& a, const Contact& b) { return a.u < b.u; });
     halves_help = true;
     text << "with friction " << name_of(fastest->slot) << " keeps approaching, with " << -fastest->u
          << " m/s before it";
     raise(text.str(), "more may do (max_impulses), or a restitution of 0", most);
   }
+  halves_help = loses_energy();
   text << (opens ? "more may do (max_impulses) at " : "no motion opens all of, jammed are ")
        << contact_list();
   throw JammedError(text.str(), node.t, flight.work.arc.residual, most);
 }
 
 void Stepper::Impl::fail_impacts() {
+  halves_help = loses_energy();
   std::ostringstream text;
-  text << "more than " << scene.options.max_impacts << " impacts in the step from t = " << last.t
+  text << "more than " << most_impacts << " impacts in the step from t = " << last.t
        << " s, at t = " << node.t << " s between " << contact_list();
-  raise(text.str(), "a smaller h, or a larger max_impacts if this is meant",
-        scene.options.max_impacts);
+  raise(text.str(), "a smaller h, or a larger max_impacts if this is meant", most_impacts);
 }
 
 void Stepper::Impl::fail_energy(double gain) {

@@ -19,6 +19,9 @@ constexpr double no_duration = 1e-12;
 /// Arcs of attempts at one step that failed: with more it is the arcs that are many, not long.
 constexpr int most_arcs_spent = 256;
 
+/// Impacts of a step that does not end otherwise; then time stepping.
+constexpr int few_impacts = 32;
+
 /// Touches (1e-10 of the shapes' size) that are an overlap at the start: what a state written with
 /// 8 digits loses is none.
 constexpr double overlap_touches = 100;
@@ -60,7 +63,8 @@ void Stepper::step(State& state) { impl_->step(state); }
 void Stepper::forget() { impl_->last_is_valid = false; }
 
 // A step that cannot be made is tried again from its start: if it was the guesses of the steps
-// before that led astray, without them; then with shorter arcs.
+// before that led astray, without them; then with shorter arcs; at last by time stepping where
+// nothing else is found.
 void Stepper::Impl::step(State& state) {
   report.fallbacks.clear();
   const double t = state.t;
@@ -70,12 +74,14 @@ void Stepper::Impl::step(State& state) {
   std::string why;
   int arcs = 0, iterations = 0;
   longest = scene.options.h;
+  is_last_attempt = false;
   for (int halvings = 0;;) {
     halves_help = false;
+    most_impacts = is_last_attempt ? few_impacts : scene.options.max_impacts;
     try {
-      step_once(state, is_own);
+      is_last_attempt ? step_at_any_price(state, is_own) : step_once(state, is_own);
       report.iterations += iterations;
-      if (halvings > 0) report.fallbacks.push_back({t, longest, Rung::halved});
+      if (halvings > 0) report.fallbacks.push_back({t, longest, Rung::halved, 0, -1});
       return;
     } catch (const StepError&) {
       if (!first) {
@@ -84,12 +90,17 @@ void Stepper::Impl::step(State& state) {
       }
       arcs += report.arcs;
       iterations += report.iterations;
-      if (!halves_help || arcs > most_arcs_spent) break;
+      if (!halves_help || is_last_attempt) break;
     }
     if (std::exchange(has_guesses, false)) continue;
-    if (halvings == scene.options.max_halvings) break;
-    ++halvings;
-    longest /= 2;
+    if (halvings == scene.options.max_halvings || arcs > most_arcs_spent) {
+      if (scene.options.strict) break;
+      is_last_attempt = true;
+      halvings = scene.options.max_halvings;
+    } else {
+      ++halvings;
+    }
+    longest = std::ldexp(scene.options.h, -halvings);
   }
   fail_at_last(first, why);
 }
@@ -110,6 +121,44 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   }
   end_step(launch);
   state = last;
+}
+
+// The same, and where an arc or its impact fails, one of time stepping in its place.
+void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
+  clear(report);
+  start(state, is_own);
+  const double t_start = state.t, h = scene.options.h;
+  for (double left = h; left > 0;) {
+    const StepReport told = report;
+    const State at{node.t, node.q, node.p};
+    const bool touches = node.touching > 0;
+    const double tau = std::min(left, longest);
+    try {
+      const Launch* launch = has_approach(node) ? collide() : nullptr;
+      fly_one_arc(tau, launch);
+      const double rest = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
+      end_arc(t_start + (h - rest));
+      left = rest;
+    } catch (const StepError&) {
+      if (!halves_help || !touches) throw;
+      report = told;
+      place_node(scene, at.t, at.q, at.p, node);
+      if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;
+      left = tau < left ? left - tau : 0;
+      fly_unlocated(tau, t_start + (h - left));
+    }
+  }
+  end_step(nullptr);  // an approach at the end is the next step's
+  state = last;
+}
+
+void Stepper::Impl::fly_unlocated(double tau, double t) {
+  const double start = node.t;
+  const Rung rung = step_unlocated(scene, tau, t, node, end, flight.work.scratch, unlocated);
+  ++report.arcs;
+  tell(unlocated.impulses, report);
+  report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
+  saltus::forget(memory);
 }
 
 void Stepper::Impl::start(const State& state, bool is_own) {
@@ -173,7 +222,7 @@ void Stepper::Impl::end_arc(double t) {
 
 // Resolves the impact at the node. @return what the next arc has to meet, or nullptr
 const Launch* Stepper::Impl::collide() {
-  if (static_cast<int>(report.impacts.size()) == scene.options.max_impacts) fail_impacts();
+  if (static_cast<int>(report.impacts.size()) >= most_impacts) fail_impacts();
   const Launch* launch = nullptr;
   if (!resolve_impact_at(scene, conserved_energy(), node, impact, report, launch)) fail_jammed();
   forget_velocities(memory);

@@ -7,6 +7,7 @@
 #include "saltus/variational/stepper.hpp"
 #include "variational/arc/finish.hpp"
 #include "variational/flight/flight.hpp"
+#include "variational/step/unlocated.hpp"
 
 namespace saltus {
 
@@ -18,7 +19,9 @@ struct Stepper::Impl {
         memory(scene.model.tree.n_v, pool.size()),
         flight(scene),
         kick(scene),
-        impact(scene) {
+        impact(scene),
+        end(scene, pool),
+        unlocated(scene) {
     last.q.setZero(scene.model.tree.n_q);
     last.p.setZero(scene.model.tree.n_v);
     report.impacts.reserve(64);
@@ -29,6 +32,8 @@ struct Stepper::Impl {
 
   void step(State& state);
   void step_once(State& state, bool is_own);
+  void step_at_any_price(State& state, bool is_own);
+  void fly_unlocated(double tau, double t);
   void start(const State& state, bool is_own);
   void check_overlap() const;
   void fly_one_arc(double left, const Launch* launch);
@@ -38,7 +43,7 @@ struct Stepper::Impl {
   void end_step(const Launch* launch);
 
   // acceptance.cpp
-  bool is_last_attempt() const;
+  bool halves_left() const;
   void note_start();
   void check_energy();
   void check_gaps();
@@ -53,6 +58,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_arcs();
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
+  bool loses_energy() const;
   std::string name_of(int slot) const;
   std::string contact_list() const;
   std::string held_list() const;
@@ -65,10 +71,14 @@ struct Stepper::Impl {
   Flight flight;
   HalfKick kick;
   ImpactScratch impact;
+  Node end;             // of an arc by time stepping
+  Unlocated unlocated;  // likewise
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
-  double longest = 0;        // [s] no arc of this attempt may be longer
+  double longest = 0;    // [s] no arc of this attempt may be longer
+  int most_impacts = 0;  // in this attempt
+  bool is_last_attempt = false;
   bool halves_help = false;  // what failed may not fail with shorter arcs
   std::string cause;         // of the last failure
   // where the arc started, by note_start

@@ -38,7 +38,17 @@ std::string law_name(ImpactLaw law) {
   return "unknown";
 }
 
-std::string rung_name(Rung rung) { return rung == Rung::halved ? "halved" : "unknown"; }
+std::string rung_name(Rung rung) {
+  switch (rung) {
+    case Rung::halved:
+      return "halved";
+    case Rung::unlocated:
+      return "unlocated";
+    case Rung::stopped:
+      return "stopped";
+  }
+  return "unknown";
+}
 
 void check_options(const StepOptions& o) {
   if (!(o.h > 0) || !std::isfinite(o.h)) fail("h", o.h, "positive and finite [s]");

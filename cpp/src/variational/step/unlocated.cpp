@@ -1,0 +1,149 @@
+#include "variational/step/unlocated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "saltus/tree/coordinates.hpp"
+
+namespace saltus {
+namespace {
+
+constexpr int most_rounds = 12;  ///< in which rows join; 1 to 4 are usual
+constexpr double sunk_touches = 100;
+
+/// L_v and L_q at (q, v), in s.
+void evaluate_at(const ModelData& model, const VecX& q, const VecX& p, const VecX& v,
+                 ArcScratch& s) {
+  momentum_residual(model, {q, p, 0}, v, s);
+}
+
+void add_cut(const Contact& contact, double offset, Unlocated& x) {
+  x.cuts.push_back(contact);
+  x.offset.push_back(offset);
+}
+
+/// v from v_free and the law. Changes node.p and node.v, which are given back.
+void resolve(const Scene& scene, Node& node, Unlocated& x) {
+  const VecX p_before = node.p;
+  node.v = x.v_free;
+  x.list.clear();
+  for (Contact& each : x.cuts) x.list.push_back(&each);
+  set_contact_blocks(scene, x.list, node, x.neighbours, x.W, x.u);
+  for (std::size_t i = 0; i < x.cuts.size(); ++i) x.u[i][0] += x.offset[i];
+  x.p.assign(x.cuts.size(), Vec3::Zero());
+  x.pile.reserve(x.cuts.size());
+  settle_for_sure(x.W, x.pile, x.u, x.p);
+  for (std::size_t i = 0; i < x.cuts.size(); ++i) apply(scene, x.cuts[i], x.p[i], node);
+  x.v = node.v;
+  node.p = p_before;
+}
+
+/// Rows of what overlaps at `end` more than at the node.
+/// @return true where there are some
+bool cut_overlaps(const Scene& scene, double tau, const Node& node, const Node& end, Unlocated& x) {
+  bool found = false;
+  for (int i = 0; i < end.touching; ++i) {
+    const Contact& c = end.contacts[i];
+    const double floor = floor_of(node, c.slot);
+    const double touch = node.pool[c.slot].touch;
+    if (c.phi >= floor - sunk_touches * touch) continue;
+    add_cut(c, (c.phi - floor - touch) / tau - dot(scene.trees, c.n, x.v), x);
+    found = true;
+  }
+  return found;
+}
+
+void place_end_node(const Scene& scene, double tau, const Node& node, Node& end, Unlocated& x) {
+  integrate(scene.model.tree, node.q, tau, x.v, x.q_end);
+  end.v = x.v;
+  place_node(scene, node.t + tau, x.q_end, node.p, end);
+}
+
+/// Bodies that contacts push stand still, all others go as they would.
+void stop(const Scene& scene, Unlocated& x) {
+  x.v = x.v_free;
+  for (const Contact& each : x.cuts) {
+    for (const ContactVector::Part& part : each.n.part) {
+      if (part.tree < 0) continue;
+      for (const int k : scene.trees.of[part.tree]) x.v[k] = 0;
+    }
+  }
+  x.p.assign(x.cuts.size(), Vec3::Zero());
+}
+
+/// M(q+) v, and v shortened where the arc gained energy. @return false where that is no help
+bool set_momenta(const Scene& scene, double before, Node& end, ArcScratch& arc, Unlocated& x) {
+  const double V = potential_energy(scene.model.packed, end.w);
+  evaluate_at(scene.model, x.q_end, end.p, x.v, arc);
+  const double T = 0.5 * x.v.dot(arc.L_v), most = before - V;
+  double part = 1;
+  if (T > most) part = most > 0 ? std::sqrt(most / T) : 0;
+  end.p = part * arc.L_v;
+  end.v = part * x.v;
+  x.energy = part * part * T + V - before;
+  return end.p.allFinite() && (part > 0 || !(T > 0));
+}
+
+void tell(const Node& node, Unlocated& x) {
+  x.impulses.clear();
+  double most = 0;
+  for (std::size_t i = 0; i < x.cuts.size(); ++i) {
+    const Vec3& p = x.p[i];
+    x.impulses.push_back(acted(node, x.cuts[i], p[0], across(x.cuts[i], p)));
+    if (p.norm() > most) most = p.norm(), x.pair = x.impulses.back().pair;
+  }
+}
+
+}  // namespace
+
+Unlocated::Unlocated(const Scene& scene) : neighbours(scene) {
+  for (VecX* each : {&v_free, &v}) each->setZero(scene.model.tree.n_v);
+  q_end.setZero(scene.model.tree.n_q);
+}
+
+Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& end,
+                    ArcScratch& arc, Unlocated& x) {
+  const ModelData& model = scene.model;
+  x.cuts.clear();
+  x.offset.clear();
+  x.pair = -1;
+  set_velocity_at_node(scene, node);
+  const double before = node_energy(scene, node);
+  evaluate_at(model, node.q, node.p, node.v, arc);
+  x.v_free = node.p + tau * arc.L_q;
+  solve(model.tree, model.packed, node.M, x.v_free);
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    add_cut(c, std::max(c.phi, 0.0) / tau, x);
+  }
+  Rung rung = Rung::stopped;
+  for (int round = 0; round < most_rounds; ++round) {
+    resolve(scene, node, x);
+    if (!x.v.allFinite()) break;
+    place_end_node(scene, tau, node, end, x);
+    if (!find_contacts(scene, end)) break;
+    if (cut_overlaps(scene, tau, node, end, x)) continue;
+    rung = Rung::unlocated;
+    break;
+  }
+  if (rung == Rung::stopped) {
+    stop(scene, x);
+    place_end_node(scene, tau, node, end, x);
+  }
+  if (!set_momenta(scene, before, end, arc, x)) {
+    rung = Rung::stopped;
+    x.v.setZero();
+    end.v.setZero();
+    place_end_node(scene, tau, node, end, x);
+    end.p.setZero();
+    x.energy = potential_energy(model.packed, end.w) - before;
+  }
+  tell(node, x);
+  node.v = end.v;
+  place_node(scene, t, x.q_end, end.p, node);
+  set_velocity_at_node(scene, node);
+  find_contacts(scene, node);
+  return rung;
+}
+
+}  // namespace saltus
