@@ -59,6 +59,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
     fail_law(flight.work.unlawful, flight.work.rows.residual);
   }
   halves_help = true;
+  blames_contact = outcome != FlightOutcome::not_converged || !flight.work.rows.active.empty();
   std::ostringstream text, h;
   h << "h = " << scene.options.h << " s";
   const Arc& arc = flight.work.arc;

@@ -131,8 +131,8 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
   for (double left = h; left > 0;) {
     const StepReport told = report;
     const State at{node.t, node.q, node.p};
-    const bool touches = node.touching > 0;
     const double tau = std::min(left, longest);
+    blames_contact = true;
     try {
       const Launch* launch = has_approach(node) ? collide() : nullptr;
       fly_one_arc(tau, launch);
@@ -140,7 +140,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
       end_arc(t_start + (h - rest));
       left = rest;
     } catch (const StepError&) {
-      if (!halves_help || !touches) throw;
+      if (!halves_help || !blames_contact) throw;
       report = told;
       place_node(scene, at.t, at.q, at.p, node);
       if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;

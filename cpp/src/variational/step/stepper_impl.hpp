@@ -79,8 +79,9 @@ struct Stepper::Impl {
   double longest = 0;    // [s] no arc of this attempt may be longer
   int most_impacts = 0;  // in this attempt
   bool is_last_attempt = false;
-  bool halves_help = false;  // what failed may not fail with shorter arcs
-  std::string cause;         // of the last failure
+  bool halves_help = false;     // what failed may not fail with shorter arcs
+  bool blames_contact = false;  // what failed is more than the arc of free bodies
+  std::string cause;            // of the last failure
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
   double kinetic = 0, energy = 0;  // [J] if contacts hold the arc
