@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import saltus
+from saltus.records.tables import counted
 
 # A can on its rim, nearly flat and spinning: its arc of 5 ms is solved by another motion, which has
 # 75 times its energy.
@@ -47,7 +48,7 @@ def test_a_step_by_halves_keeps_the_energy_and_says_so():
     assert parts.min() >= 2
     assert parts.max() <= 64
     assert np.isin(run.fallbacks["t"].round(9), run.t.round(9)).all()
-    assert f"{len(run.fallbacks)} steps by shorter arcs" in run.summary()
+    assert f", {counted(len(run.fallbacks), 'step')} by shorter arcs" in run.summary()
 
 
 def test_the_report_tells_and_forgets():
