@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import saltus
+from saltus.records.tables import counted
 
 # A can on its rim, nearly flat and spinning: no arc of 5 ms is the motion's.
 Q = [0, 0, 0.105539, -0.956946, 0.289455, -0.018799, 0.010798]
@@ -46,7 +47,7 @@ def test_a_step_by_halves_keeps_the_energy_and_says_so():
     assert parts.min() >= 2
     assert parts.max() <= 64
     assert np.isin(run.fallbacks["t"].round(9), run.t.round(9)).all()
-    assert f"{len(run.fallbacks)} steps by shorter arcs" in run.summary()
+    assert f", {counted(len(run.fallbacks), 'step')} by shorter arcs" in run.summary()
 
 
 def test_the_report_tells_and_forgets():
