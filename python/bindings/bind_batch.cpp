@@ -2,6 +2,8 @@
 #include <pybind11/native_enum.h>
 
 #include "bindings.hpp"
+
+#include <algorithm>
 #include "progress.hpp"
 #include "saltus/rollout/batch.hpp"
 
@@ -105,6 +107,16 @@ auto each(Get get) {
   };
 }
 
+std::vector<int> stepped_runs(const BatchTrajectory& batch) {
+  std::vector<int> out;
+  for (int i = 0; i < batch.runs(); ++i) {
+    const auto& rows = batch.outcome[static_cast<std::size_t>(i)].fallbacks;
+    const auto is_lossy = [](const Fallback& each) { return each.rung != Rung::halved; };
+    if (std::any_of(rows.begin(), rows.end(), is_lossy)) out.push_back(i);
+  }
+  return out;
+}
+
 void bind_batch_trajectory(py::module_& m) {
   using B = BatchTrajectory;
   py::class_<B>(m, "BatchTrajectory", batch_doc)
@@ -132,6 +144,7 @@ void bind_batch_trajectory(py::module_& m) {
                              "shape (runs,)")
       .def_property_readonly("energy_error", &B::energy_error, "shape (runs,)")
       .def_property_readonly("failures", &B::failures, "message of each run that failed")
+      .def_property_readonly("stepped", &stepped_runs, "runs with arcs by time stepping")
       .def("run", &B::run, "One run as a Trajectory of its own.", py::arg("index"));
 }
 

@@ -82,7 +82,7 @@ from saltus.paths import cmake_dir, urdf_dir
 from saltus.records.impacts import impact_table
 from saltus.runs.batch import simulate_batch
 from saltus.runs.batch_trajectory import BatchTrajectory
-from saltus.runs.simulate import simulate
+from saltus.runs.simulate import StepWarning, simulate
 from saltus.runs.trajectory import Trajectory, load
 from saltus.urdf import ModelWarning, load_urdf
 
@@ -131,6 +131,7 @@ __all__ = [
     "StepError",
     "StepOptions",
     "StepReport",
+    "StepWarning",
     "Stepper",
     "Trajectory",
     "TreeSolution",

@@ -1759,6 +1759,9 @@ class StepOptions:
         Gap rates below this part of sqrt(2 E G) are rest, not approach.
     simultaneous : float
         A contact that would close within this part of h joins an impact.
+    strict : bool
+        True: a step that neither whole nor halved arcs make is a `StepError`. Else its contacts are
+        resolved by time stepping, which loses order and energy; `StepReport.fallbacks` tells.
     """
     def __getstate__(self) -> tuple: ...
     def __init__(
@@ -1777,6 +1780,7 @@ class StepOptions:
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
         rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+        strict: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -1808,6 +1812,8 @@ class StepOptions:
     def rest(self) -> float: ...
     @property
     def simultaneous(self) -> float: ...
+    @property
+    def strict(self) -> bool: ...
 
 class ImpactOutcome:
     """
@@ -2065,9 +2071,12 @@ class StepReport:
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
-    fallbacks : list of (float, float, str)
-        Empty as a rule. A step that could not be made as it should: its start [s], the longest arc that
-        it was made of [s], and how: "halved", by arcs of half the step, a quarter, ...
+    fallbacks : list of (float, float, str, float, str)
+        Empty as a rule. What could not be made as it should: its start [s], the duration of its arcs
+        [s], how, what that changed of the energy [J], and the pair that took the largest impulse.
+        "halved": the step, by arcs of half of it, a quarter, ...; as exact as with a smaller h.
+        "unlocated": one arc, by time stepping: contacts do not rebound in it. "stopped": one arc that
+        bodies in contact stand still in.
     contacts : list of ContactImpulse
         What held pairs closed over the step, a pair once, impacts left aside.
     """
@@ -2077,7 +2086,7 @@ class StepReport:
     @property
     def contacts(self) -> list[ContactImpulse]: ...
     @property
-    def fallbacks(self) -> list[tuple[float, float, str]]: ...
+    def fallbacks(self) -> list[tuple[float, float, str, float, str]]: ...
     @property
     def friction_residual(self) -> float: ...
     @property
@@ -2131,6 +2140,7 @@ class Stepper:
         max_impulses: typing.SupportsInt | typing.SupportsIndex = 100000,
         rest: typing.SupportsFloat | typing.SupportsIndex = 1e-10,
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+        strict: bool = False,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def advance(self, state: State) -> State:
@@ -2189,7 +2199,7 @@ class Trajectory:
     @property
     def fallbacks(self) -> typing.Any:
         """
-        structured array: t, tau, rung
+        structured array: t, tau, rung, energy, pair
         """
     @property
     def impacts(self) -> typing.Any:
@@ -2353,6 +2363,11 @@ class BatchTrajectory:
     def shadow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
         [J] shape (runs, rows)
+        """
+    @property
+    def stepped(self) -> list[int]:
+        """
+        runs with arcs by time stepping
         """
     @property
     def t(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:

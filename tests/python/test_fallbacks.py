@@ -28,7 +28,7 @@ def test_never_is_an_error_that_keeps_what_was_before():
     with pytest.raises(
         saltus.StepError, match=r"DEL residual .* held by can\[rim\+\] ~ floor; a smaller h"
     ) as error:
-        saltus.simulate(model, **start(model), duration=0.5, h=H, max_halvings=0)
+        saltus.simulate(model, **start(model), duration=0.5, h=H, max_halvings=0, strict=True)
     rows = error.value.trajectory
     assert rows.total.max() <= rows.total[0] + 0.02 * rows.kinetic.max()
     assert len(rows.fallbacks) == 0
@@ -57,8 +57,8 @@ def test_the_report_tells_and_forgets():
     for _ in range(10):
         before = state.t
         state = stepper.advance(state)
-        for t, tau, rung in stepper.report.fallbacks:
-            assert (t, rung) == (before, "halved")
+        for t, tau, rung, energy, pair in stepper.report.fallbacks:
+            assert (t, rung, energy, pair) == (before, "halved", 0, "")
             assert tau < H
             assert stepper.report.arcs >= H / tau
         told.append(len(stepper.report.fallbacks))

@@ -130,10 +130,10 @@ def test_options_but_no_functions():
     options = saltus.StepOptions(
         0.002, "compensated", False, order=saltus.ImpactOrder.symmetric, certify=True,
         max_iterations=9, max_impacts=8, max_halvings=3, max_impulses=7, rest=1e-9,
-        simultaneous=1e-8,
+        simultaneous=1e-8, strict=True,
     )  # fmt: skip
     names = [name for name in vars(saltus.StepOptions) if not name.startswith("_")]
-    assert len(names) == 11
+    assert len(names) == 12
     for name in names:
         assert getattr(again(options), name) == getattr(options, name)
     with pytest.raises(TypeError, match="whose law is a function have no pickle"):

@@ -35,6 +35,7 @@ from saltus.records.tables import (
     LISTED_PAIRS,
     NUMBERS,
     SETTLING,
+    fallbacks_of_file,
 )
 from saltus.urdf import build_quietly
 
@@ -43,15 +44,8 @@ if TYPE_CHECKING:
 
 FORMAT = "saltus trajectory"
 VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
-BOUNDS = (
-    "max_iterations",
-    "max_impacts",
-    "max_halvings",
-    "max_impulses",
-    "rest",
-    "simultaneous",
-    "strict",
-)
+MOST = ("max_iterations", "max_impacts", "max_halvings", "max_impulses")
+BOUNDS = (*MOST, "rest", "simultaneous", "strict")
 OPTIONS = ("h", "collisions", *BOUNDS)
 
 Kind = TypeVar("Kind", bound=Recording)
@@ -162,7 +156,7 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
     arrays["impacts"] = file["impacts"][()].astype(IMPACT)
     settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
     arrays["settlings"] = np.asarray(settlings, SETTLING)
-    arrays["fallbacks"] = _fallbacks(file["fallbacks"][()] if "fallbacks" in file else None)
+    arrays["fallbacks"] = fallbacks_of_file(file.get("fallbacks"))
     if "contacts" in file:
         arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
     for array in arrays.values():
@@ -222,17 +216,6 @@ def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> No
                 f'{path} holds joint "{joint}" as yaw, pitch and roll (format version {version}); '
                 "free and ball joints are quaternions now: run the simulation again"
             )
-
-
-def _fallbacks(stored: npt.NDArray[np.void] | None) -> npt.NDArray[np.void]:
-    """Return the table of a file, whose older versions have fewer columns or none."""
-    if stored is None:
-        return np.zeros(0, FALLBACK)
-    out = np.zeros(len(stored), FALLBACK)
-    out["pair"] = -1
-    for name in stored.dtype.names or ():
-        out[name] = stored[name]
-    return out
 
 
 def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from saltus._core import Model, ModelError
+
+if TYPE_CHECKING:
+    import h5py
 
 Array = npt.NDArray[np.float64]
 
@@ -22,9 +25,7 @@ IMPACT = np.dtype(
     }
 )
 SETTLING = np.dtype([("t", "f8"), ("pair", "i4")])
-FALLBACK = np.dtype(
-    [("t", "f8"), ("tau", "f8"), ("rung", "U16"), ("energy", "f8"), ("pair", "i4")]
-)
+FALLBACK = np.dtype([("t", "f8"), ("tau", "f8"), ("rung", "U16"), ("energy", "f8"), ("pair", "i4")])
 RUNGS = ("halved", "unlocated", "stopped")  # names of C++'s Rung, in order
 ACTED: list[Any] = [
     ("pair", "i4"),
@@ -45,6 +46,15 @@ def counted(number: int, noun: str) -> str:
     if number == 1:
         return f"{number} {noun}"
     return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
+
+
+def fallbacks_of_file(stored: h5py.Dataset | None) -> npt.NDArray[np.void]:
+    """Return the table of a file, whose older versions have fewer columns or none."""
+    rows = np.zeros(0 if stored is None else len(stored), FALLBACK)
+    rows["pair"] = -1
+    for name in () if stored is None else stored.dtype.names:
+        rows[name] = stored[name]
+    return rows
 
 
 def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ from saltus._core import (
 from saltus.records.tables import counted
 from saltus.runs.batch_trajectory import BatchTrajectory
 from saltus.runs.progress import Progress, progress_bar
-from saltus.runs.simulate import Law, StepBounds, check_types, keep_rows
+from saltus.runs.simulate import Law, StepBounds, StepWarning, check_types, keep_rows
 from saltus.runs.starts import Starts, to_states
 from saltus.runs.trajectory import Trajectory
 
@@ -87,7 +87,7 @@ def simulate_batch(
         always, never; a callable is given the part done in [0, 1] about ten times a second.
     **bounds
         `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`, `max_impulses`, `rest`,
-        `simultaneous`: as in `StepOptions`.
+        `simultaneous`, `strict`: as in `StepOptions`.
 
     Returns
     -------
@@ -137,6 +137,14 @@ def simulate_batch(
             raise
     batch = BatchTrajectory.from_core(core)
     _tell(batch)
+    if core.stepped:
+        warnings.warn(
+            f"{len(core.stepped)} of {counted(len(batch), 'run')} have arcs by time stepping, "
+            f"which lose order and energy, run {core.stepped[0]} for one; see `fallbacks` of the "
+            "run, and strict=True makes such steps errors",
+            StepWarning,
+            stacklevel=2,
+        )
     return batch
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, TypedDict
 
@@ -20,6 +21,7 @@ from saltus._core import (
     StepError,
     StepOptions,
 )
+from saltus.records.tables import counted
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.trajectory import Trajectory
 
@@ -27,6 +29,10 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Law = ImpactLaw | str | Callable[[ImpactProblem], ArrayLike]
+
+
+class StepWarning(UserWarning):
+    """Steps of a run lost order and energy to end at all; see `Trajectory.fallbacks`."""
 
 
 class StepBounds(TypedDict, total=False):
@@ -140,7 +146,27 @@ def simulate(
             f"saltus: stopped after {done:g} s of {end:g} s; the trajectory holds these",
             file=sys.stderr,
         )
-    return Trajectory.from_core(core)
+    run = Trajectory.from_core(core)
+    warn_of_time_stepping([run])
+    return run
+
+
+def warn_of_time_stepping(runs: Sequence[Trajectory]) -> None:
+    """Warn once of arcs that lost order and energy, so that nobody takes them for others."""
+    lossy = [run.fallbacks[run.fallbacks["rung"] != "halved"] for run in runs]
+    arcs = sum(map(len, lossy))
+    if arcs == 0:
+        return
+    k = next(i for i, rows in enumerate(lossy) if len(rows))
+    first, energy = lossy[k][0], sum(float(rows["energy"].sum()) for rows in lossy)
+    at = f" of run {k}" if len(runs) > 1 else ""
+    warnings.warn(
+        f"{counted(arcs, 'arc')} by time stepping, which took {-energy:.2g} J: the first at "
+        f"t = {first['t']:g} s{at}, {runs[k].pair_names[first['pair']]}; see fallbacks, and "
+        "strict=True makes such steps errors",
+        StepWarning,
+        stacklevel=3,
+    )
 
 
 def keep_rows(error: BaseException, run: Trajectory) -> None:

@@ -9,7 +9,6 @@ namespace saltus {
 namespace {
 
 constexpr int most_rounds = 12;  ///< in which rows join; 1 to 4 are usual
-constexpr double sunk_touches = 100;
 
 /// L_v and L_q at (q, v), in s.
 void evaluate_at(const ModelData& model, const VecX& q, const VecX& p, const VecX& v,
@@ -46,7 +45,7 @@ bool cut_overlaps(const Scene& scene, double tau, const Node& node, const Node& 
     const Contact& c = end.contacts[i];
     const double floor = floor_of(node, c.slot);
     const double touch = node.pool[c.slot].touch;
-    if (c.phi >= floor - sunk_touches * touch) continue;
+    if (c.phi >= floor) continue;
     add_cut(c, (c.phi - floor - touch) / tau - dot(scene.trees, c.n, x.v), x);
     found = true;
   }
