@@ -50,9 +50,11 @@ def counted(number: int, noun: str) -> str:
 
 def fallbacks_of_file(stored: h5py.Dataset | None) -> npt.NDArray[np.void]:
     """Return the table of a file, whose older versions have fewer columns or none."""
-    rows = np.zeros(0 if stored is None else len(stored), FALLBACK)
+    if stored is None:
+        return np.zeros(0, FALLBACK)
+    rows = np.zeros(len(stored), FALLBACK)
     rows["pair"] = -1
-    for name in () if stored is None else stored.dtype.names:
+    for name in stored.dtype.names:
         rows[name] = stored[name]
     return rows
 
