@@ -15,6 +15,18 @@ constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
 
 }  // namespace
 
+/// Of a step. Bodies that rebound in part may do so without end: then time stepping is better.
+int Stepper::Impl::most_impacts() const {
+  const int most = scene.options.max_impacts;
+  if (scene.options.strict || !loses_energy()) return most;
+  constexpr int few = 32;
+  const int plenty = 100 + 10 * static_cast<int>(scene.model.links.size());
+  return std::min(most, is_last_attempt ? few : plenty);
+}
+
+/// Newton iterations of an attempt, and of those before the last one.
+int Stepper::Impl::most_work() const { return 10 * scene.options.max_impacts; }
+
 /// Shorter arcs can be tried yet, or time stepping.
 bool Stepper::Impl::halves_left() const {
   return is_last_attempt || !scene.options.strict ||

@@ -81,7 +81,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
 }
 
 void Stepper::Impl::fail_law(int slot, double residual) {
-  halves_help = true;
+  halves_help = blames_contact = true;
   std::ostringstream text;
   text << "contact at t = " << node.t << " s: " << name_of(slot)
        << (has_friction(node) ? " neither sticks nor slides, it is off Coulomb's law by "
@@ -111,27 +111,27 @@ void Stepper::Impl::fail_jammed() {
     const auto begin = node.contacts.begin(), last_one = begin + node.touching;
     const auto fastest = std::min_element(
         begin, last_one, [](const Contact& a, const Contact& b) { return a.u < b.u; });
-    halves_help = true;
+    blames_contact = true;
     text << "with friction " << name_of(fastest->slot) << " keeps approaching, with " << -fastest->u
          << " m/s before it";
     raise(text.str(), "more may do (max_impulses), or a restitution of 0", most);
   }
-  halves_help = loses_energy();
+  blames_contact = loses_energy();
   text << (opens ? "more may do (max_impulses) at " : "no motion opens all of, jammed are ")
        << contact_list();
   throw JammedError(text.str(), node.t, flight.work.arc.residual, most);
 }
 
 void Stepper::Impl::fail_impacts() {
-  halves_help = loses_energy();
+  blames_contact = loses_energy();
   std::ostringstream text;
-  text << "more than " << most_impacts << " impacts in the step from t = " << last.t
+  text << "more than " << most_impacts() << " impacts in the step from t = " << last.t
        << " s, at t = " << node.t << " s between " << contact_list();
-  raise(text.str(), "a smaller h, or a larger max_impacts if this is meant", most_impacts);
+  raise(text.str(), "a smaller h, or a larger max_impacts if this is meant", most_impacts());
 }
 
 void Stepper::Impl::fail_energy(double gain) {
-  halves_help = true;
+  halves_help = blames_contact = true;
   std::ostringstream text, h;
   text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
        << " J, and contacts do no work: its equation was solved by another motion" << held_list();
@@ -140,7 +140,7 @@ void Stepper::Impl::fail_energy(double gain) {
 }
 
 void Stepper::Impl::fail_sinking(const Contact& contact) {
-  halves_help = true;
+  halves_help = blames_contact = true;
   std::ostringstream text, h;
   text << name_of(contact.slot) << " overlap by " << -contact.phi
        << " m where the arc up to t = " << node.t << " s ends";
@@ -149,7 +149,7 @@ void Stepper::Impl::fail_sinking(const Contact& contact) {
 }
 
 void Stepper::Impl::fail_arcs() {
-  halves_help = true;
+  halves_help = blames_contact = true;
   std::ostringstream text;
   text << report.arcs << " arcs but " << report.impacts.size()
        << " impacts in the step from t = " << last.t << " s, the last arc of "
@@ -158,6 +158,16 @@ void Stepper::Impl::fail_arcs() {
     text << "; sought last was when " << name_of(flight.closing) << " closes";
   }
   raise(text.str(), "a smaller h or a slightly other start may pass by", report.arcs);
+}
+
+void Stepper::Impl::fail_work() {
+  blames_contact = true;
+  std::ostringstream text;
+  text << report.iterations << " Newton iterations in " << report.arcs << " arcs and "
+       << report.impacts.size() << " impacts of the step from t = " << last.t
+       << " s, by t = " << node.t << " s";
+  raise(text.str(), "a smaller h, or a larger max_impacts, whose tenfold is the bound",
+        report.iterations);
 }
 
 }  // namespace saltus

@@ -19,9 +19,6 @@ constexpr double no_duration = 1e-12;
 /// Arcs of attempts at one step that failed: with more it is the arcs that are many, not long.
 constexpr int most_arcs_spent = 256;
 
-/// Impacts of a step that does not end otherwise; then time stepping.
-constexpr int few_impacts = 32;
-
 /// Touches (1e-10 of the shapes' size) that are an overlap at the start: what a state written with
 /// 8 digits loses is none.
 constexpr double overlap_touches = 100;
@@ -76,8 +73,7 @@ void Stepper::Impl::step(State& state) {
   longest = scene.options.h;
   is_last_attempt = false;
   for (int halvings = 0;;) {
-    halves_help = false;
-    most_impacts = is_last_attempt ? few_impacts : scene.options.max_impacts;
+    halves_help = blames_contact = false;
     try {
       is_last_attempt ? step_at_any_price(state, is_own) : step_once(state, is_own);
       report.iterations += iterations;
@@ -90,11 +86,12 @@ void Stepper::Impl::step(State& state) {
       }
       arcs += report.arcs;
       iterations += report.iterations;
-      if (!halves_help || is_last_attempt) break;
+      if (is_last_attempt || !(halves_help || blames_contact)) break;
     }
-    if (std::exchange(has_guesses, false)) continue;
-    if (halvings == scene.options.max_halvings || arcs > most_arcs_spent) {
-      if (scene.options.strict) break;
+    if (halves_help && std::exchange(has_guesses, false)) continue;
+    const bool is_spent = arcs > most_arcs_spent || iterations > most_work();
+    if (!halves_help || is_spent || halvings == scene.options.max_halvings) {
+      if (scene.options.strict || !blames_contact) break;
       is_last_attempt = true;
       halvings = scene.options.max_halvings;
     } else {
@@ -132,7 +129,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
     const StepReport told = report;
     const State at{node.t, node.q, node.p};
     const double tau = std::min(left, longest);
-    blames_contact = true;
+    blames_contact = false;
     try {
       const Launch* launch = has_approach(node) ? collide() : nullptr;
       fly_one_arc(tau, launch);
@@ -140,7 +137,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
       end_arc(t_start + (h - rest));
       left = rest;
     } catch (const StepError&) {
-      if (!halves_help || !blames_contact) throw;
+      if (!blames_contact) throw;
       report = told;
       place_node(scene, at.t, at.q, at.p, node);
       if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;
@@ -218,11 +215,12 @@ void Stepper::Impl::end_arc(double t) {
   check_gaps();
   tell_half_kick(kick, report);
   if (!has_approach(node)) check_idle_arcs();
+  if (report.iterations > most_work()) fail_work();
 }
 
 // Resolves the impact at the node. @return what the next arc has to meet, or nullptr
 const Launch* Stepper::Impl::collide() {
-  if (static_cast<int>(report.impacts.size()) >= most_impacts) fail_impacts();
+  if (static_cast<int>(report.impacts.size()) >= most_impacts()) fail_impacts();
   const Launch* launch = nullptr;
   if (!resolve_impact_at(scene, conserved_energy(), node, impact, report, launch)) fail_jammed();
   forget_velocities(memory);

@@ -43,6 +43,8 @@ struct Stepper::Impl {
   void end_step(const Launch* launch);
 
   // acceptance.cpp
+  int most_impacts() const;
+  int most_work() const;
   bool halves_left() const;
   void note_start();
   void check_energy();
@@ -56,6 +58,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_jammed();
   [[noreturn]] void fail_impacts();
   [[noreturn]] void fail_arcs();
+  [[noreturn]] void fail_work();
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
   bool loses_energy() const;
@@ -76,12 +79,12 @@ struct Stepper::Impl {
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
-  double longest = 0;    // [s] no arc of this attempt may be longer
-  int most_impacts = 0;  // in this attempt
+  double longest = 0;  // [s] no arc of this attempt may be longer
   bool is_last_attempt = false;
-  bool halves_help = false;     // what failed may not fail with shorter arcs
-  bool blames_contact = false;  // what failed is more than the arc of free bodies
-  std::string cause;            // of the last failure
+  // of the last failure
+  bool halves_help = false;     // it may not come with shorter arcs
+  bool blames_contact = false;  // nor with time stepping
+  std::string cause;
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
   double kinetic = 0, energy = 0;  // [J] if contacts hold the arc
