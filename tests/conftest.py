@@ -22,6 +22,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 BUILD = ROOT / "build" / "tests"
 PROGRAM_TIMEOUT = 900  # s; a hanging case must not hang the run
+SLOW = ROOT / "tests" / "cpp" / "slow.txt"
 RESULT = re.compile(r"\[ +(RUN|OK|FAILED|SKIPPED) +\] ([\w./]+)")
 
 # Deadlines measure the machine; derandomised cases make a red CI repeatable.
@@ -115,6 +116,17 @@ def list_cases(program: Path) -> list[str]:
     return cases
 
 
+def slow_cases() -> set[str]:
+    """Return the C++ cases that are marked `slow`, as Suite.Case."""
+    lines = SLOW.read_text(encoding="utf-8").splitlines()
+    return {line for line in lines if line and not line.startswith("#")}
+
+
+def plain_name(case: str) -> str:
+    """Return the name of a case without its instantiation and its parameter."""
+    return re.sub(r"^\w+/(?=.*\.)|/\w+$", "", case)
+
+
 def parse_output(text: str) -> tuple[dict[str, tuple[str, str]], str | None]:
     """Return {case: (OK | FAILED | SKIPPED, text)} and the case that did not end, if any."""
     results: dict[str, tuple[str, str]] = {}
@@ -144,8 +156,12 @@ class CppProgram(pytest.File):
         self.results: dict[str, tuple[str, str]] = {}
 
     def collect(self):
+        slow = slow_cases()
         for case in list_cases(self.program):
-            yield CppCase.from_parent(self, name=case)
+            item = CppCase.from_parent(self, name=case)
+            if plain_name(case) in slow:
+                item.add_marker(pytest.mark.slow)
+            yield item
 
     def run_selected(self) -> None:
         selected = [item.name for item in self.session.items if item.parent is self]

@@ -10,9 +10,9 @@ namespace {
 
 constexpr auto kind_doc = R"(What can be said of an impact for all velocities at once.
 
-unique: the velocity after does not depend on the order of impulses. order_dependent: there are
-velocities for which it does, and any single answer is a convention. jammed: no velocity opens all
-gaps, impulses need not end.
+unique: the velocity after does not depend on the order of the impulses. order_dependent: for some
+velocities it does, and any single answer is a convention. jammed: no velocity opens all gaps;
+impulses need not end.
 )";
 
 constexpr auto certificate_doc = R"(Whether the outcome of an impact is unique, and why.
@@ -21,10 +21,10 @@ Attributes
 ----------
 kind : ImpactKind
 type : str
-    If unique, the groups of contacts that feel each other, as finite reflection groups: "A3 x A1";
-    "plastic" where all restitutions are 0. Else empty.
+    If unique, the groups of contacts that affect each other, as finite reflection groups: "A3 x
+    A1"; "plastic" if all restitutions are 0. Else empty.
 impulses : int or None
-    At most so many at one instant; None where no bound is known.
+    Upper bound of their number; None if no bound is known.
 angles : ndarray, shape (m, m)
     [rad] Wedge angles, `cos angles[i, j] = -G[i, j] / sqrt(G[i, i] G[j, j])`; pi on the diagonal.
 interior : float
@@ -35,12 +35,12 @@ same : list of int
 )";
 
 constexpr auto classify_doc =
-    R"(Is the outcome of contacts at one instant unique? What their angles tell.
+    R"(Whether the outcome of an impact on several contacts is unique, by their angles.
 
 With `G = N M^-1 N^T` contacts are mirrors at the angles theta, `cos theta = -G_ij / sqrt(G_ii
-G_jj)`. Elastic impacts on two contacts are unique if and only if theta = pi/m; those on many if
-every theta is pi/m and the mirrors make a finite group (J. Humphreys, Reflection Groups and Coxeter
-Groups, 2.4), and then the number of impulses does not depend on the order either.
+G_jj)`. Elastic impacts on two contacts are unique if and only if theta = pi/m. Those on more are if
+every theta is pi/m and the mirrors generate a finite group (J. Humphreys, Reflection Groups and
+Coxeter Groups, 2.4); then the number of impulses does not depend on the order either.
 
 Parameters
 ----------
@@ -70,7 +70,7 @@ Examples
 <ImpactCertificate: unique, A2, at most 3 impulses>
 )";
 
-constexpr auto outcomes_class_doc = R"(All that an impact can come to, by every order of impulses.
+constexpr auto outcomes_class_doc = R"(All outcomes of an impact, over every order of the impulses.
 
 Attributes
 ----------
@@ -81,13 +81,12 @@ spread : float
 relative_spread : float
     Of the velocity's own size in this metric; at most 2.
 states : int
-    Velocities met on the way.
+    Number of velocities on the way.
 )";
 
-constexpr auto outcomes_doc = R"(Every order of impulses, searched depth first.
+constexpr auto outcomes_doc = R"(All outcomes of an impact: a depth-first search over every order.
 
-A velocity that was met before is not searched again: equal balls in a line take N! velocities, not
-all orders.
+Each velocity is visited once: equal balls in a line take N! velocities, not all orders.
 
 Parameters
 ----------

@@ -17,40 +17,40 @@ pairs : list of str
 lambdas : numpy.ndarray, shape (impulses,)
     [N s] the impulses, `p += lambda * phi_q`.
 tangentials : numpy.ndarray, shape (impulses, 3)
-    [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+    [N s] friction impulses on the pair's first shape, in the world frame; 0 without friction.
 points : numpy.ndarray, shape (impulses, 3)
-    [m] where each impulse acts, in the world: halfway between the nearest points of the two shapes.
-    NaN where that is not known: in runs from files of before there were points.
+    [m] where each impulse acts, in the world frame: halfway between the nearest points of the two
+    shapes. NaN in runs from older files without points.
 normals : numpy.ndarray, shape (impulses, 3)
-    Unit normal of each contact, in the world, from the pair's second shape to the first, on which
-    `lambda * normal + tangential` acts. NaN as `points`.
+    Unit normal of each contact, in the world frame, from the pair's second shape to the first, on
+    which `lambda * normal + tangential` acts. NaN as `points`.
 contacts : int
-    Pairs that touched.
+    Closed contacts.
 law : ImpactLaw
     The law that was used.
 fallback : bool
-    Another law was asked for and nodal_energy used, an impulse being too weak for it.
+    nodal_energy replaced the chosen law, because an impulse was too weak for it.
 certificate : str
     Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
     (`certify`), and of a single contact. With friction whether another order of these impulses was
     possible: "order_dependent", else "unique", or "unique, plastic" where all restitutions are 0.
 )";
 
-constexpr auto report_doc = R"(What happened in a step.
+constexpr auto report_doc = R"(The report of a step.
 
 Attributes
 ----------
 iterations : int
     Newton iterations over all arcs tried.
 arcs : int
-    Arcs that the step is made of; 1 without impacts.
+    Arcs of the step; 1 without impacts.
 sustained : int
-    Contacts of its arcs that were held closed by a force.
+    Contacts held closed by a force, summed over the arcs.
 residual : float
     [largest momentum] of the worst arc.
 friction_residual : float
-    [largest impulse or rate] how far from Coulomb's law the worst arc or closing half kick is: to
-    1e-9 that is rounding, and more than 1e-6 a `StepError`. 0 without friction.
+    [largest impulse or rate] residual of Coulomb's law, the worst of the arcs and of the closing
+    half kicks. Up to 1e-9 is rounding; more than 1e-6 is a `StepError`. 0 without friction.
 impacts : list of Impact
 settlings : list of (float, str)
     Time [s] and name of each pair that bounced ever lower and has come to rest.
@@ -61,30 +61,30 @@ fallbacks : list of (float, float, str, float, str)
     "unlocated": one arc, by time stepping: contacts do not rebound in it. "stopped": one arc that
     bodies in contact stand still in.
 contacts : list of ContactImpulse
-    What held pairs closed over the step, a pair once, impacts left aside.
+    Impulses that held contacts closed over the step, each pair once, without those of impacts.
 )";
 
 constexpr auto contact_doc =
-    R"(What held a pair closed over a step: the sum of its impulses, but for those of impacts.
+    R"(The impulse that held a contact closed over a step: a sum, without impulses of impacts.
 
-On the pair's first shape acts `impulse * normal + tangential`, at `point`; on the second the
-opposite. Divided by the step `h` these are mean forces. The impulses that are summed act where the
-contact is at the start of each arc of the step, and at its end: `point` and `normal` are the mean
-of these, weighted by the impulses. Where a body slides on a plane the sum has the moment of its
-parts.
+`impulse * normal + tangential` acts on the pair's first shape at `point`, the opposite on the
+second. Divided by the time step `h` these are mean forces. The summed impulses act at the place of
+the contact at the start of each arc of the step, and at its end; `point` and `normal` are their
+mean, weighted by the impulses. For a body that slides on a plane the sum also has the moment of
+its parts.
 
 Attributes
 ----------
 pair : str
     Name of the pair.
 impulse : float
-    [N s] along the normal, >= 0.
+    [N s] normal impulse, >= 0.
 tangential : numpy.ndarray, shape (3,)
-    [N s] friction, across the normal, in the world; 0 without friction.
+    [N s] friction impulse, across the normal, in the world frame; 0 without friction.
 point : numpy.ndarray, shape (3,)
-    [m] in the world, halfway between the nearest points of the two shapes.
+    [m] in the world frame, halfway between the nearest points of the two shapes.
 normal : numpy.ndarray, shape (3,)
-    Unit normal in the world, from the pair's second shape to the first.
+    Unit normal in the world frame, from the pair's second shape to the first.
 )";
 
 NamedImpact with_names(const Model& model, const StepReport& report, const Impact& impact) {

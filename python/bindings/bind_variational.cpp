@@ -11,36 +11,36 @@ namespace {
 constexpr auto impact_order_doc = R"(Which of the approaching contacts is next.
 
 fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
-symmetric: all of them together, reflected in the face of their cone that is nearest; keeps mirror
+symmetric: all of them together, a reflection in the nearest face of their cone; keeps mirror
 symmetry (D. Kaufman et al., "Reflections on Simultaneous Impact", SIGGRAPH 2012).
 )";
 
-constexpr auto step_options_doc = R"(How to step.
+constexpr auto step_options_doc = R"(Options of a step.
 
 Parameters
 ----------
 h : float
-    [s] step.
+    [s] time step.
 law : ImpactLaw, str or callable
-    A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
+    A callable takes an `ImpactProblem` and returns the momenta after, shape (n_v,).
 collisions : bool
     False: bodies pass through each other.
 order : ImpactOrder or str
-    Which of several approaching contacts is next.
+    Which of several approaching contacts takes the next impulse.
 certify : bool
-    Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
+    Reports for each impact on several contacts whether its outcome is unique (`classify_impact`).
 max_iterations : int
-    Newton iterations an arc; 2 to 4 are usual.
+    Newton iterations per arc; 2 to 4 are usual.
 max_impacts : int
-    Impacts a step; more is a body bouncing faster than h can follow. Also arcs without an impact,
-    of which 100 are the most.
+    Impacts per step; with more a body bounces faster than h can follow. Also the bound of arcs
+    without an impact, but at most 100 of these.
 max_halvings : int
-    How often a step that cannot be made is tried anew with arcs of half the duration: by default
-    down to h / 64; 0: never. `StepReport.fallbacks` tells.
+    How often a failed step is repeated with arcs of half the duration: by default down to h / 64;
+    0: never. `StepReport.fallbacks` reports it.
 max_impulses : int
-    Impulses an impact.
+    Impulses per impact.
 rest : float
-    Gap rates below this part of sqrt(2 E G) are rest, not approach.
+    A contact with a gap rate below this fraction of sqrt(2 E G) is at rest, not approaching.
 simultaneous : float
     A contact that would close within this part of h joins an impact.
 strict : bool
@@ -49,24 +49,25 @@ strict : bool
 )";
 
 constexpr auto impact_problem_doc =
-    R"(The instant of an impact, as a custom law sees it: all pairs that touch.
+    R"(An impact, as a custom law sees it: all closed contacts.
 
 Attributes
 ----------
 t : float
     [s]
-q, p, v : numpy.ndarray, shape (n,)
+q : numpy.ndarray, shape (n_q,)
+p, v : numpy.ndarray, shape (n_v,)
     Before the impact; v = M^-1 p.
-M : numpy.ndarray, shape (n, n)
+M : numpy.ndarray, shape (n_v, n_v)
     Mass matrix at q.
-N : numpy.ndarray, shape (m, n)
+N : numpy.ndarray, shape (m, n_v)
     Rows are gradients of the gaps.
 u : numpy.ndarray, shape (m,)
-    [m/s] gap rates N v, negative where a pair approaches.
+    [m/s] gap rates N v, negative for an approaching contact.
 restitution, friction : numpy.ndarray, shape (m,)
-    Of the materials that meet.
+    Of each pair's materials.
 pairs : list of int
-    Numbers of the pairs, as in `Model.pair_name`.
+    Indices of the pairs, as in `Model.pair_name`.
 )";
 
 void bind_impact_problem(py::module_& m) {

@@ -9,16 +9,17 @@ constexpr auto mimic =
 Parameters
 ----------
 joint : str
-    Name of the joint that is followed; both have one coordinate.
+    Name of the joint to follow; both have one coordinate.
 multiplier : float
 offset : float
     [rad | m]
 )";
 
-constexpr auto model_builder = R"(Describes a model link by link; `build` checks and freezes it.
+constexpr auto model_builder =
+    R"(Describes a model link by link; `build` checks it and makes the model.
 
 All methods return the builder, so that calls can be chained. Local mistakes raise ModelError at
-once, those that need the whole (unknown parents, cycles, joints that move no mass) in `build`.
+once; mistakes of the whole (unknown parents, cycles, joints that move no mass) raise it in `build`.
 
 Parameters
 ----------
@@ -28,7 +29,7 @@ root : str
     Name of the link that is fixed to the world; its frame is the world frame.
 )";
 
-constexpr auto set_gravity = R"(Sets gravity; it is (0, 0, -9.81) otherwise.
+constexpr auto set_gravity = R"(Sets gravity; default: (0, 0, -9.81).
 
 Parameters
 ----------
@@ -36,10 +37,10 @@ gravity : array_like, shape (3,)
     [m/s^2]
 )";
 
-constexpr auto set_solver = R"(Says how steps solve for velocities, on all trees.
+constexpr auto set_solver = R"(Sets the linear solver of the steps, for all trees.
 
-A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
-the shape of each tree; `Model.solvers` tells what became of it.
+It changes the speed, and results by rounding only. The default, TreeSolver.automatic, depends on
+the shape of each tree; `Model.solvers` has the solvers in use.
 
 Parameters
 ----------
@@ -52,12 +53,12 @@ Parameters
 ----------
 name : str
 inertia : BodyInertia
-    In the link's frame; none where the link has no mass.
+    In the link's frame; without it the link has no mass.
 
 Raises
 ------
 ModelError
-    On a name that is taken and on an inertia that no body can have.
+    On a duplicate name and on an inertia that no body can have.
 )";
 
 constexpr auto add_joint = R"(Adds a joint between two links.
@@ -77,21 +78,21 @@ pitch : float
 mimic : Mimic, optional
     The joint that this one follows.
 lower, upper : float
-    [rad | m] limits; kept for the user, not applied.
+    [rad | m] limits; stored, not applied.
 velocity, effort : float
-    [rad/s | m/s], [N m | N] limits; kept for the user, not applied.
+    [rad/s | m/s], [N m | N] limits; stored, not applied.
 damping, friction : float
-    [N m s/rad | N s/m], [N m | N]; kept for the user, not applied.
+    [N m s/rad | N s/m], [N m | N]; stored, not applied.
 
 Raises
 ------
 ModelError
-    On a name that is taken, a zero axis, limits in the wrong order, and numbers that are none.
+    On a duplicate name, a zero axis, limits in the wrong order, and NaN or infinite values.
 )";
 
-constexpr auto add_shape = R"(Adds a shape that can touch others.
+constexpr auto add_shape = R"(Adds a collision shape.
 
-It is named after its link, with "#2" added for the link's second, and so on.
+It has the name of its link; the second shape of a link has "#2" added, and so on.
 
 Parameters
 ----------
@@ -103,7 +104,7 @@ X_LG : Pose
 Raises
 ------
 ModelError
-    On sizes that are not finite and positive, and on a half-space that is not the root link's.
+    On sizes that are not finite and positive, and on a half-space of a link other than the root.
 )";
 
 constexpr auto add_half_space =
@@ -137,13 +138,13 @@ Parameters
 link_a, link_b : str
 )";
 
-constexpr auto set_group = R"(Puts a link into a group, of which it has one at most.
+constexpr auto set_group = R"(Puts a link into a group; a link is in one group at most.
 
 Parameters
 ----------
 link : str
 group : str
-    Any name; `add_group_exclusion` says what it is good for.
+    Any name, for `add_group_exclusion`.
 )";
 
 constexpr auto add_group_exclusion = R"(Lets the links of two groups pass through each other.
@@ -151,12 +152,12 @@ constexpr auto add_group_exclusion = R"(Lets the links of two groups pass throug
 Parameters
 ----------
 group_a, group_b : str
-    The same one twice: its links pass through each other.
+    They may be the same group; its links then pass through each other.
 )";
 
-constexpr auto set_adjacent_links = R"(Says whether links on both sides of one joint may collide.
+constexpr auto set_adjacent_links = R"(Sets whether links on both sides of one joint may collide.
 
-What is welded together never does.
+Links that are welded together never collide.
 
 Parameters
 ----------
@@ -164,23 +165,24 @@ adjacent : AdjacentLinks or str
 )";
 
 constexpr auto adjacent_links =
-    R"(Are gaps watched between links on both sides of one joint? They overlap at it by design.
+    R"(Whether gaps are watched between links on both sides of one joint, which often overlap there.
 
-Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
+Default: excluded. Floating and planar joints do not make their links adjacent.
 )";
 
 constexpr auto set_material =
-    R"(Says what all shapes of a link are made of; it says nothing by itself.
+    R"(Sets the material of all shapes of a link; `set_contact` gives it its properties.
 
 Parameters
 ----------
 link : str
     The root link's material is that of its half-spaces too; `add_floor` gives a floor its own.
 material : str
-    Any name; `set_contact` says what happens between two.
+    Any name.
 )";
 
-constexpr auto set_contact = R"(Says what happens where two materials meet; the last word holds.
+constexpr auto set_contact =
+    R"(Sets restitution and friction of two materials; the last call applies.
 
 Parameters
 ----------
@@ -189,7 +191,7 @@ material_a, material_b : str
 restitution : float
     e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
 friction : float
-    Coulomb's mu >= 0: the tangential force is at most mu times the normal one.
+    Coulomb's mu >= 0: the friction force is at most mu times the normal force.
 
 Raises
 ------
@@ -198,12 +200,13 @@ ModelError
 )";
 
 constexpr auto set_default_contact =
-    R"(Says what happens between all shapes that nothing else is said of.
+    R"(Sets restitution and friction of all pairs for which nothing else is set.
 
-`set_contact` of their materials comes first, then the properties of a floor (`add_floor`). Elastic and without friction otherwise. Parameters as in `set_contact`.
+`set_contact` of their materials takes precedence, then the properties of a floor (`add_floor`). The
+default is elastic and frictionless. Parameters as in `set_contact`.
 )";
 
-constexpr auto build = R"(Checks the whole and freezes it.
+constexpr auto build = R"(Checks the description and makes the model.
 
 Returns
 -------

@@ -19,7 +19,7 @@ BodyInertia
 Raises
 ------
 ModelError
-    On a `HalfSpace`, which has no end, and where the mass or a size is not finite and positive.
+    On a `HalfSpace`, which is infinite, and on a mass or size that is not finite and positive.
 
 See Also
 --------
@@ -41,13 +41,13 @@ float
 Raises
 ------
 ModelError
-    On a `HalfSpace`, which has no end, and where a size is not finite and positive.
+    On a `HalfSpace`, which is infinite, and on a size that is not finite and positive.
 )";
 
 constexpr auto add_body =
-    R"(Adds a homogeneous solid that moves: a link, its shape and the joint above it.
+    R"(Adds a homogeneous solid: a link, its shape and its joint.
 
-The frames of the three are one, and the inertia is that of the shape (`solid_inertia`).
+The three have the same frame, and the inertia follows from the shape (`solid_inertia`).
 
 Parameters
 ----------
@@ -55,32 +55,32 @@ name : str
     Of the link.
 shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
 mass : float, optional
-    [kg] this or `density`; a body on a fixed joint may have neither.
+    [kg] give this or `density`; a body on a fixed joint may have neither.
 density : float, optional
     [kg/m^3]
 X : Pose
-    Where the body is in the parent link's frame at displacement 0.
+    Pose of the body in the parent link's frame at displacement 0.
 joint : JointType or str
-    Floating: it flies. Fixed, and below the root: it never moves.
+    Floating: a free body. Fixed: the body moves with its parent; with the root it never moves.
 parent : str, optional
-    Link below which it hangs; the root link otherwise. It may be added later.
+    Parent link; default: the root link. It may be added later.
 joint_name : str, optional
-    The body's name otherwise, so that the coordinates of a free body "cube" are "cube_x" and so on.
+    Default: the body's name, so that the coordinates of a free body "cube" are "cube_x" and so on.
 axis : array_like, shape (3,)
-    Of a joint that has one, in the body's frame. `add_joint` has what joints may have besides.
+    Of a joint with an axis, in the body's frame. `add_joint` has further properties of joints.
 
 Raises
 ------
 ModelError
-    On names that are taken, a half-space, sizes or a mass that no body has, and where not one of
-    mass and density is given. Nothing is added then.
+    On duplicate names, a half-space, a size or mass that is not finite and positive, and if neither
+    or both of mass and density are given. Nothing is added then.
 )";
 
 constexpr auto add_floor =
     R"(Adds the solid below the plane normal.x = offset, fixed to the world, of a material of its own.
 
-What happens between a floor and a body is the first of these that is said: `set_contact` of their
-two materials, this floor's own properties, `set_default_contact`.
+The first of these that is set gives restitution and friction of a floor and a body: `set_contact`
+of their two materials, this floor's own properties, `set_default_contact`.
 
 Parameters
 ----------
@@ -91,44 +91,44 @@ normal : array_like, shape (3,)
 offset : float
     [m]
 restitution, friction : float, optional
-    With all bodies that no `set_contact` is said of. Where one of the two is given, the other is 0;
-    where none is, the default contact holds.
+    Of contacts with all bodies without a `set_contact`. If only one of the two is given, the other
+    is 0; if none is, the default contact applies.
 material : str, optional
-    For `set_contact`; the floor's name otherwise.
+    For `set_contact`; default: the floor's name.
 
 Raises
 ------
 ModelError
-    On a name that is taken, on a plane where there is a half-space already, and on numbers out of
-    their range. Nothing is added then.
+    On a duplicate name, a plane that already has a half-space, and values out of their range.
+    Nothing is added then.
 )";
 
-constexpr auto add = R"(Puts another model into this one: two robots in one world.
+constexpr auto add = R"(Copies another model into this one: two robots in one world.
 
-The other's root link is fixed to a link of this one. Half-spaces of one plane become one, and a
-default contact that only one of the two has holds for both. Materials of one name are one material.
-Gravity and solver stay those of this builder. A `Model` is added as it was built, with its
-collisions.
+The other's root link is fixed to a link of this one. Half-spaces with the same plane are merged. A
+default contact that only one of the two has applies to both. Materials with the same name are the
+same material. Gravity and solver are those of this builder. A `Model` is added as it was built,
+with its collisions.
 
 Parameters
 ----------
 other : ModelBuilder or Model
-    It stays as it is.
+    It is not changed.
 prefix : str
-    Put before all names of the other: of links, joints (and so coordinates), half-spaces, groups.
+    Put before all names of the other: links, joints (and so coordinates), half-spaces, groups.
 parent : str, optional
-    Link that carries the other's root link; this one's root otherwise.
+    Link that carries the other's root link; default: the root link of this builder.
 X : Pose
-    Where the other's root link is in the parent's frame.
+    Pose of the other's root link in the parent's frame.
 own_materials : bool
-    True: the other's materials get the prefix too, and so are others than those of this builder.
+    True: the other's materials get the prefix too, and so differ from those of this builder.
 
 Raises
 ------
 ModelError
-    On names that both have (the message proposes a prefix), on half-spaces that would move, and
-    where the two contradict each other: in default contacts, contacts of materials, floors, or
-    gaps between adjacent links. Nothing is added then.
+    On duplicate names (the message proposes a prefix), on half-spaces that would move, and on
+    contradictions in default contacts, contacts of materials, floors, or gaps between adjacent
+    links. Nothing is added then.
 )";
 
 }  // namespace saltus::bindings::docs

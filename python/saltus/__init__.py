@@ -6,11 +6,11 @@
 >>> print(f"{run.impacts['t'][0]:.4f} s")
 0.5046 s
 
-Units are SI. Arrays of coordinates are `(n_q,)`, of velocities and momenta `(n_v,)`, trajectories
-`(rows, n_q)` and `(rows, n_v)`; the two differ where there are free or ball joints. Everything that
-a user can get wrong ends in `ModelError` (a ValueError), a step that cannot be made in `StepError`
-(a RuntimeError) or its kind `JammedError`. Arguments that are members of enumerations may be given
-by name: `law="shadow_energy"`.
+Units are SI. Coordinates have shape `(n_q,)`, velocities and momenta `(n_v,)`, trajectories
+`(rows, n_q)` and `(rows, n_v)`; n_q and n_v differ for free and ball joints. Wrong input raises
+`ModelError` (a ValueError), a step that fails `StepError` (a RuntimeError) or its subclass
+`JammedError`. Arguments that are members of enumerations may be given by name:
+`law="shadow_energy"`.
 """
 
 from saltus import scenes

@@ -1230,7 +1230,7 @@ class Mimic:
     Parameters
     ----------
     joint : str
-        Name of the joint that is followed; both have one coordinate.
+        Name of the joint to follow; both have one coordinate.
     multiplier : float
     offset : float
         [rad | m]
@@ -1256,9 +1256,9 @@ class Mimic:
 
 class AdjacentLinks(enum.Enum):
     """
-    Are gaps watched between links on both sides of one joint? They overlap at it by design.
+    Whether gaps are watched between links on both sides of one joint, which often overlap there.
 
-    Excluded unless said otherwise. Floating and planar joints do not make their links adjacent.
+    Default: excluded. Floating and planar joints do not make their links adjacent.
     """
 
     excluded = ...
@@ -1266,10 +1266,10 @@ class AdjacentLinks(enum.Enum):
 
 class ModelBuilder:
     """
-    Describes a model link by link; `build` checks and freezes it.
+    Describes a model link by link; `build` checks it and makes the model.
 
     All methods return the builder, so that calls can be chained. Local mistakes raise ModelError at
-    once, those that need the whole (unknown parents, cycles, joints that move no mass) in `build`.
+    once; mistakes of the whole (unknown parents, cycles, joints that move no mass) raise it in `build`.
 
     Parameters
     ----------
@@ -1290,32 +1290,32 @@ class ModelBuilder:
         own_materials: bool = False,
     ) -> ModelBuilder:
         """
-        Puts another model into this one: two robots in one world.
+        Copies another model into this one: two robots in one world.
 
-        The other's root link is fixed to a link of this one. Half-spaces of one plane become one, and a
-        default contact that only one of the two has holds for both. Materials of one name are one material.
-        Gravity and solver stay those of this builder. A `Model` is added as it was built, with its
-        collisions.
+        The other's root link is fixed to a link of this one. Half-spaces with the same plane are merged. A
+        default contact that only one of the two has applies to both. Materials with the same name are the
+        same material. Gravity and solver are those of this builder. A `Model` is added as it was built,
+        with its collisions.
 
         Parameters
         ----------
         other : ModelBuilder or Model
-            It stays as it is.
+            It is not changed.
         prefix : str
-            Put before all names of the other: of links, joints (and so coordinates), half-spaces, groups.
+            Put before all names of the other: links, joints (and so coordinates), half-spaces, groups.
         parent : str, optional
-            Link that carries the other's root link; this one's root otherwise.
+            Link that carries the other's root link; default: the root link of this builder.
         X : Pose
-            Where the other's root link is in the parent's frame.
+            Pose of the other's root link in the parent's frame.
         own_materials : bool
-            True: the other's materials get the prefix too, and so are others than those of this builder.
+            True: the other's materials get the prefix too, and so differ from those of this builder.
 
         Raises
         ------
         ModelError
-            On names that both have (the message proposes a prefix), on half-spaces that would move, and
-            where the two contradict each other: in default contacts, contacts of materials, floors, or
-            gaps between adjacent links. Nothing is added then.
+            On duplicate names (the message proposes a prefix), on half-spaces that would move, and on
+            contradictions in default contacts, contacts of materials, floors, or gaps between adjacent
+            links. Nothing is added then.
         """
     def add_body(
         self,
@@ -1331,9 +1331,9 @@ class ModelBuilder:
         axis: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (1, 0, 0),
     ) -> ModelBuilder:
         """
-        Adds a homogeneous solid that moves: a link, its shape and the joint above it.
+        Adds a homogeneous solid: a link, its shape and its joint.
 
-        The frames of the three are one, and the inertia is that of the shape (`solid_inertia`).
+        The three have the same frame, and the inertia follows from the shape (`solid_inertia`).
 
         Parameters
         ----------
@@ -1341,25 +1341,25 @@ class ModelBuilder:
             Of the link.
         shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
         mass : float, optional
-            [kg] this or `density`; a body on a fixed joint may have neither.
+            [kg] give this or `density`; a body on a fixed joint may have neither.
         density : float, optional
             [kg/m^3]
         X : Pose
-            Where the body is in the parent link's frame at displacement 0.
+            Pose of the body in the parent link's frame at displacement 0.
         joint : JointType or str
-            Floating: it flies. Fixed, and below the root: it never moves.
+            Floating: a free body. Fixed: the body moves with its parent; with the root it never moves.
         parent : str, optional
-            Link below which it hangs; the root link otherwise. It may be added later.
+            Parent link; default: the root link. It may be added later.
         joint_name : str, optional
-            The body's name otherwise, so that the coordinates of a free body "cube" are "cube_x" and so on.
+            Default: the body's name, so that the coordinates of a free body "cube" are "cube_x" and so on.
         axis : array_like, shape (3,)
-            Of a joint that has one, in the body's frame. `add_joint` has what joints may have besides.
+            Of a joint with an axis, in the body's frame. `add_joint` has further properties of joints.
 
         Raises
         ------
         ModelError
-            On names that are taken, a half-space, sizes or a mass that no body has, and where not one of
-            mass and density is given. Nothing is added then.
+            On duplicate names, a half-space, a size or mass that is not finite and positive, and if neither
+            or both of mass and density are given. Nothing is added then.
         """
     def add_body_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
         """
@@ -1392,8 +1392,8 @@ class ModelBuilder:
         """
         Adds the solid below the plane normal.x = offset, fixed to the world, of a material of its own.
 
-        What happens between a floor and a body is the first of these that is said: `set_contact` of their
-        two materials, this floor's own properties, `set_default_contact`.
+        The first of these that is set gives restitution and friction of a floor and a body: `set_contact`
+        of their two materials, this floor's own properties, `set_default_contact`.
 
         Parameters
         ----------
@@ -1404,16 +1404,16 @@ class ModelBuilder:
         offset : float
             [m]
         restitution, friction : float, optional
-            With all bodies that no `set_contact` is said of. Where one of the two is given, the other is 0;
-            where none is, the default contact holds.
+            Of contacts with all bodies without a `set_contact`. If only one of the two is given, the other
+            is 0; if none is, the default contact applies.
         material : str, optional
-            For `set_contact`; the floor's name otherwise.
+            For `set_contact`; default: the floor's name.
 
         Raises
         ------
         ModelError
-            On a name that is taken, on a plane where there is a half-space already, and on numbers out of
-            their range. Nothing is added then.
+            On a duplicate name, a plane that already has a half-space, and values out of their range.
+            Nothing is added then.
         """
     def add_group_exclusion(self, group_a: str, group_b: str) -> ModelBuilder:
         """
@@ -1422,7 +1422,7 @@ class ModelBuilder:
         Parameters
         ----------
         group_a, group_b : str
-            The same one twice: its links pass through each other.
+            They may be the same group; its links then pass through each other.
         """
     def add_half_space(
         self,
@@ -1478,16 +1478,16 @@ class ModelBuilder:
         mimic : Mimic, optional
             The joint that this one follows.
         lower, upper : float
-            [rad | m] limits; kept for the user, not applied.
+            [rad | m] limits; stored, not applied.
         velocity, effort : float
-            [rad/s | m/s], [N m | N] limits; kept for the user, not applied.
+            [rad/s | m/s], [N m | N] limits; stored, not applied.
         damping, friction : float
-            [N m s/rad | N s/m], [N m | N]; kept for the user, not applied.
+            [N m s/rad | N s/m], [N m | N]; stored, not applied.
 
         Raises
         ------
         ModelError
-            On a name that is taken, a zero axis, limits in the wrong order, and numbers that are none.
+            On a duplicate name, a zero axis, limits in the wrong order, and NaN or infinite values.
         """
     def add_link(self, name: str, inertia: BodyInertia = ...) -> ModelBuilder:
         """
@@ -1497,12 +1497,12 @@ class ModelBuilder:
         ----------
         name : str
         inertia : BodyInertia
-            In the link's frame; none where the link has no mass.
+            In the link's frame; without it the link has no mass.
 
         Raises
         ------
         ModelError
-            On a name that is taken and on an inertia that no body can have.
+            On a duplicate name and on an inertia that no body can have.
         """
     def add_shape(
         self,
@@ -1511,9 +1511,9 @@ class ModelBuilder:
         X_LG: Pose = ...,
     ) -> ModelBuilder:
         """
-        Adds a shape that can touch others.
+        Adds a collision shape.
 
-        It is named after its link, with "#2" added for the link's second, and so on.
+        It has the name of its link; the second shape of a link has "#2" added, and so on.
 
         Parameters
         ----------
@@ -1525,7 +1525,7 @@ class ModelBuilder:
         Raises
         ------
         ModelError
-            On sizes that are not finite and positive, and on a half-space that is not the root link's.
+            On sizes that are not finite and positive, and on a half-space of a link other than the root.
         """
     def add_warning(self, text: str) -> ModelBuilder:
         """
@@ -1533,7 +1533,7 @@ class ModelBuilder:
         """
     def build(self) -> Model:
         """
-        Checks the whole and freezes it.
+        Checks the description and makes the model.
 
         Returns
         -------
@@ -1551,9 +1551,9 @@ class ModelBuilder:
         """
     def set_adjacent_links(self, adjacent: AdjacentLinks | str) -> ModelBuilder:
         """
-        Says whether links on both sides of one joint may collide.
+        Sets whether links on both sides of one joint may collide.
 
-        What is welded together never does.
+        Links that are welded together never collide.
 
         Parameters
         ----------
@@ -1568,7 +1568,7 @@ class ModelBuilder:
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> ModelBuilder:
         """
-        Says what happens where two materials meet; the last word holds.
+        Sets restitution and friction of two materials; the last call applies.
 
         Parameters
         ----------
@@ -1577,7 +1577,7 @@ class ModelBuilder:
         restitution : float
             e in [0, 1]: a contact that closes with gap rate u < 0 opens with -e u.
         friction : float
-            Coulomb's mu >= 0: the tangential force is at most mu times the normal one.
+            Coulomb's mu >= 0: the friction force is at most mu times the normal force.
 
         Raises
         ------
@@ -1591,15 +1591,16 @@ class ModelBuilder:
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> ModelBuilder:
         """
-        Says what happens between all shapes that nothing else is said of.
+        Sets restitution and friction of all pairs for which nothing else is set.
 
-        `set_contact` of their materials comes first, then the properties of a floor (`add_floor`). Elastic and without friction otherwise. Parameters as in `set_contact`.
+        `set_contact` of their materials takes precedence, then the properties of a floor (`add_floor`). The
+        default is elastic and frictionless. Parameters as in `set_contact`.
         """
     def set_gravity(
         self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> ModelBuilder:
         """
-        Sets gravity; it is (0, 0, -9.81) otherwise.
+        Sets gravity; default: (0, 0, -9.81).
 
         Parameters
         ----------
@@ -1608,31 +1609,31 @@ class ModelBuilder:
         """
     def set_group(self, link: str, group: str) -> ModelBuilder:
         """
-        Puts a link into a group, of which it has one at most.
+        Puts a link into a group; a link is in one group at most.
 
         Parameters
         ----------
         link : str
         group : str
-            Any name; `add_group_exclusion` says what it is good for.
+            Any name, for `add_group_exclusion`.
         """
     def set_material(self, link: str, material: str) -> ModelBuilder:
         """
-        Says what all shapes of a link are made of; it says nothing by itself.
+        Sets the material of all shapes of a link; `set_contact` gives it its properties.
 
         Parameters
         ----------
         link : str
             The root link's material is that of its half-spaces too; `add_floor` gives a floor its own.
         material : str
-            Any name; `set_contact` says what happens between two.
+            Any name.
         """
     def set_solver(self, solver: TreeSolver | str) -> ModelBuilder:
         """
-        Says how steps solve for velocities, on all trees.
+        Sets the linear solver of the steps, for all trees.
 
-        A matter of speed: answers differ by rounding. It is TreeSolver.automatic otherwise, which goes by
-        the shape of each tree; `Model.solvers` tells what became of it.
+        It changes the speed, and results by rounding only. The default, TreeSolver.automatic, depends on
+        the shape of each tree; `Model.solvers` has the solvers in use.
 
         Parameters
         ----------
@@ -1651,7 +1652,7 @@ class MeshUse(enum.Enum):
 
 class ImpactLaw(enum.IntEnum):
     """
-    Which energy an impact conserves.
+    The energy that an impact conserves.
 
     nodal_energy
         H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
@@ -1675,10 +1676,10 @@ class ImpactLaw(enum.IntEnum):
 
 class ImpactOrder(enum.Enum):
     """
-    Which of the approaching contacts is next.
+    Which approaching contact takes the next impulse.
 
     fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
-    symmetric: all of them together, reflected in the face of their cone that is nearest; keeps mirror
+    symmetric: all of them together, a reflection in the nearest face of their cone; keeps mirror
     symmetry (D. Kaufman et al., "Reflections on Simultaneous Impact", SIGGRAPH 2012).
     """
 
@@ -1688,24 +1689,25 @@ class ImpactOrder(enum.Enum):
 
 class ImpactProblem:
     """
-    The instant of an impact, as a custom law sees it: all pairs that touch.
+    An impact, as a custom law sees it: all closed contacts.
 
     Attributes
     ----------
     t : float
         [s]
-    q, p, v : numpy.ndarray, shape (n,)
+    q : numpy.ndarray, shape (n_q,)
+    p, v : numpy.ndarray, shape (n_v,)
         Before the impact; v = M^-1 p.
-    M : numpy.ndarray, shape (n, n)
+    M : numpy.ndarray, shape (n_v, n_v)
         Mass matrix at q.
-    N : numpy.ndarray, shape (m, n)
+    N : numpy.ndarray, shape (m, n_v)
         Rows are gradients of the gaps.
     u : numpy.ndarray, shape (m,)
-        [m/s] gap rates N v, negative where a pair approaches.
+        [m/s] gap rates N v, negative for an approaching contact.
     restitution, friction : numpy.ndarray, shape (m,)
-        Of the materials that meet.
+        Of each pair's materials.
     pairs : list of int
-        Numbers of the pairs, as in `Model.pair_name`.
+        Indices of the pairs, as in `Model.pair_name`.
     """
     def __repr__(self) -> str: ...
     @property
@@ -1731,32 +1733,32 @@ class ImpactProblem:
 
 class StepOptions:
     """
-    How to step.
+    Options of a step.
 
     Parameters
     ----------
     h : float
-        [s] step.
+        [s] time step.
     law : ImpactLaw, str or callable
-        A callable is given an `ImpactProblem` and returns the momenta after, shape (n,).
+        A callable takes an `ImpactProblem` and returns the momenta after, shape (n_v,).
     collisions : bool
         False: bodies pass through each other.
     order : ImpactOrder or str
-        Which of several approaching contacts is next.
+        Which of several approaching contacts takes the next impulse.
     certify : bool
-        Says of each impact on several contacts whether its outcome is unique (`classify_impact`).
+        Reports for each impact on several contacts whether its outcome is unique (`classify_impact`).
     max_iterations : int
-        Newton iterations an arc; 2 to 4 are usual.
+        Newton iterations per arc; 2 to 4 are usual.
     max_impacts : int
-        Impacts a step; more is a body bouncing faster than h can follow. Also arcs without an impact,
-        of which 100 are the most.
+        Impacts per step; with more a body bounces faster than h can follow. Also the bound of arcs
+        without an impact, but at most 100 of these.
     max_halvings : int
-        How often a step that cannot be made is tried anew with arcs of half the duration: by default
-        down to h / 64; 0: never. `StepReport.fallbacks` tells.
+        How often a failed step is repeated with arcs of half the duration: by default down to h / 64;
+        0: never. `StepReport.fallbacks` reports it.
     max_impulses : int
-        Impulses an impact.
+        Impulses per impact.
     rest : float
-        Gap rates below this part of sqrt(2 E G) are rest, not approach.
+        A contact with a gap rate below this fraction of sqrt(2 E G) is at rest, not approaching.
     simultaneous : float
         A contact that would close within this part of h joins an impact.
     strict : bool
@@ -1849,11 +1851,11 @@ class FrictionOutcome:
 
 class ImpactKind(enum.Enum):
     """
-    What can be said of an impact for all velocities at once.
+    What holds for an impact with any velocity before it.
 
-    unique: the velocity after does not depend on the order of impulses. order_dependent: there are
-    velocities for which it does, and any single answer is a convention. jammed: no velocity opens all
-    gaps, impulses need not end.
+    unique: the velocity after does not depend on the order of the impulses. order_dependent: for some
+    velocities it does, and any single answer is a convention. jammed: no velocity opens all gaps;
+    impulses need not end.
     """
 
     jammed = ...
@@ -1868,10 +1870,10 @@ class ImpactCertificate:
     ----------
     kind : ImpactKind
     type : str
-        If unique, the groups of contacts that feel each other, as finite reflection groups: "A3 x A1";
-        "plastic" where all restitutions are 0. Else empty.
+        If unique, the groups of contacts that affect each other, as finite reflection groups: "A3 x
+        A1"; "plastic" if all restitutions are 0. Else empty.
     impulses : int or None
-        At most so many at one instant; None where no bound is known.
+        Upper bound of their number; None if no bound is known.
     angles : ndarray, shape (m, m)
         [rad] Wedge angles, `cos angles[i, j] = -G[i, j] / sqrt(G[i, i] G[j, j])`; pi on the diagonal.
     interior : float
@@ -1912,7 +1914,7 @@ class ImpactCertificate:
 
 class ImpactOutcomes:
     """
-    All that an impact can come to, by every order of impulses.
+    All outcomes of an impact, over every order of the impulses.
 
     Attributes
     ----------
@@ -1923,7 +1925,7 @@ class ImpactOutcomes:
     relative_spread : float
         Of the velocity's own size in this metric; at most 2.
     states : int
-        Velocities met on the way.
+        Number of velocities on the way.
     """
     def __repr__(self) -> str: ...
     @property
@@ -1960,19 +1962,19 @@ class Impact:
     lambdas : numpy.ndarray, shape (impulses,)
         [N s] the impulses, `p += lambda * phi_q`.
     tangentials : numpy.ndarray, shape (impulses, 3)
-        [N s] friction of each impulse on the pair's first shape, in the world; 0 without friction.
+        [N s] friction impulses on the pair's first shape, in the world frame; 0 without friction.
     points : numpy.ndarray, shape (impulses, 3)
-        [m] where each impulse acts, in the world: halfway between the nearest points of the two shapes.
-        NaN where that is not known: in runs from files of before there were points.
+        [m] where each impulse acts, in the world frame: halfway between the nearest points of the two
+        shapes. NaN in runs from older files without points.
     normals : numpy.ndarray, shape (impulses, 3)
-        Unit normal of each contact, in the world, from the pair's second shape to the first, on which
-        `lambda * normal + tangential` acts. NaN as `points`.
+        Unit normal of each contact, in the world frame, from the pair's second shape to the first, on
+        which `lambda * normal + tangential` acts. NaN as `points`.
     contacts : int
-        Pairs that touched.
+        Closed contacts.
     law : ImpactLaw
         The law that was used.
     fallback : bool
-        Another law was asked for and nodal_energy used, an impulse being too weak for it.
+        nodal_energy replaced the chosen law, because an impulse was too weak for it.
     certificate : str
         Whether the outcome is unique, "unique, A2, at most 3 impulses"; "" where that was not asked for
         (`certify`), and of a single contact. With friction whether another order of these impulses was
@@ -2018,26 +2020,26 @@ class Impact:
 
 class ContactImpulse:
     """
-    What held a pair closed over a step: the sum of its impulses, but for those of impacts.
+    The impulse that held a contact closed over a step: a sum, without impulses of impacts.
 
-    On the pair's first shape acts `impulse * normal + tangential`, at `point`; on the second the
-    opposite. Divided by the step `h` these are mean forces. The impulses that are summed act where the
-    contact is at the start of each arc of the step, and at its end: `point` and `normal` are the mean
-    of these, weighted by the impulses. Where a body slides on a plane the sum has the moment of its
-    parts.
+    `impulse * normal + tangential` acts on the pair's first shape at `point`, the opposite on the
+    second. Divided by the time step `h` these are mean forces. The summed impulses act at the place of
+    the contact at the start of each arc of the step, and at its end; `point` and `normal` are their
+    mean, weighted by the impulses. For a body that slides on a plane the sum also has the moment of
+    its parts.
 
     Attributes
     ----------
     pair : str
         Name of the pair.
     impulse : float
-        [N s] along the normal, >= 0.
+        [N s] normal impulse, >= 0.
     tangential : numpy.ndarray, shape (3,)
-        [N s] friction, across the normal, in the world; 0 without friction.
+        [N s] friction impulse, across the normal, in the world frame; 0 without friction.
     point : numpy.ndarray, shape (3,)
-        [m] in the world, halfway between the nearest points of the two shapes.
+        [m] in the world frame, halfway between the nearest points of the two shapes.
     normal : numpy.ndarray, shape (3,)
-        Unit normal in the world, from the pair's second shape to the first.
+        Unit normal in the world frame, from the pair's second shape to the first.
     """
     def __repr__(self) -> str: ...
     @property
@@ -2053,21 +2055,21 @@ class ContactImpulse:
 
 class StepReport:
     """
-    What happened in a step.
+    The report of a step.
 
     Attributes
     ----------
     iterations : int
         Newton iterations over all arcs tried.
     arcs : int
-        Arcs that the step is made of; 1 without impacts.
+        Arcs of the step; 1 without impacts.
     sustained : int
-        Contacts of its arcs that were held closed by a force.
+        Contacts held closed by a force, summed over the arcs.
     residual : float
         [largest momentum] of the worst arc.
     friction_residual : float
-        [largest impulse or rate] how far from Coulomb's law the worst arc or closing half kick is: to
-        1e-9 that is rounding, and more than 1e-6 a `StepError`. 0 without friction.
+        [largest impulse or rate] residual of Coulomb's law, the worst of the arcs and of the closing
+        half kicks. Up to 1e-9 is rounding; more than 1e-6 is a `StepError`. 0 without friction.
     impacts : list of Impact
     settlings : list of (float, str)
         Time [s] and name of each pair that bounced ever lower and has come to rest.
@@ -2078,7 +2080,7 @@ class StepReport:
         "unlocated": one arc, by time stepping: contacts do not rebound in it. "stopped": one arc that
         bodies in contact stand still in.
     contacts : list of ContactImpulse
-        What held pairs closed over the step, a pair once, impacts left aside.
+        Impulses that held contacts closed over the step, each pair once, without those of impacts.
     """
     def __repr__(self) -> str: ...
     @property
@@ -2388,12 +2390,12 @@ def classify_impact(
     tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
 ) -> ImpactCertificate:
     """
-    Is the outcome of contacts at one instant unique? What their angles tell.
+    Whether the outcome of an impact on several contacts is unique, by their angles.
 
     With `G = N M^-1 N^T` contacts are mirrors at the angles theta, `cos theta = -G_ij / sqrt(G_ii
-    G_jj)`. Elastic impacts on two contacts are unique if and only if theta = pi/m; those on many if
-    every theta is pi/m and the mirrors make a finite group (J. Humphreys, Reflection Groups and Coxeter
-    Groups, 2.4), and then the number of impulses does not depend on the order either.
+    G_jj)`. Elastic impacts on two contacts are unique if and only if theta = pi/m. Those on more are if
+    every theta is pi/m and the mirrors generate a finite group (J. Humphreys, Reflection Groups and
+    Coxeter Groups, 2.4); then the number of impulses does not depend on the order either.
 
     Parameters
     ----------
@@ -2495,10 +2497,9 @@ def impact_outcomes(
     tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
 ) -> ImpactOutcomes:
     """
-    Every order of impulses, searched depth first.
+    All outcomes of an impact: a depth-first search over every order.
 
-    A velocity that was met before is not searched again: equal balls in a line take N! velocities, not
-    all orders.
+    Each velocity is visited once: equal balls in a line take N! velocities, not all orders.
 
     Parameters
     ----------
@@ -2595,16 +2596,16 @@ def resolve_impact(
     friction: typing.SupportsFloat | numpy.typing.ArrayLike | None = None,
 ) -> ImpactOutcome | FrictionOutcome:
     """
-    Impulses at one instant: while some contact approaches, reflect on one that does.
+    Frictionless impact: while a contact approaches, one that does takes an impulse.
 
     In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e_i) u_i / G_ii`,
     `u += G[:, i] lambda_i`. Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational
-    Framework", (4), (5) and section III-D. Ends after finitely many impulses if all e = 1 and the cone
+    Framework", (4), (5) and section III-D. The impulses are finitely many if all e = 1 and the cone
     {v: N v >= 0} has an interior.
 
-    The order `ImpactOrder.symmetric` reflects on all that approach together, and `restitution=0` for
-    all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
-    order matters, `impact_outcomes` by how much.
+    `ImpactOrder.symmetric` reflects on all approaching contacts together. With `restitution=0` for all
+    contacts the result is, in any order, the projection on {v: N v >= 0}. `classify_impact` says
+    whether the order matters, `impact_outcomes` by how much.
 
     With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
     until it does not close any more and an expansion with e times the impulse of the compression
@@ -2854,7 +2855,7 @@ def solid_inertia(
     Raises
     ------
     ModelError
-        On a `HalfSpace`, which has no end, and where the mass or a size is not finite and positive.
+        On a `HalfSpace`, which is infinite, and on a mass or size that is not finite and positive.
 
     See Also
     --------
@@ -2926,7 +2927,7 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
     Raises
     ------
     ModelError
-        On a `HalfSpace`, which has no end, and where a size is not finite and positive.
+        On a `HalfSpace`, which is infinite, and on a size that is not finite and positive.
     """
 
 __version__: str = "0.1.0"

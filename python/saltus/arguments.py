@@ -1,7 +1,7 @@
-"""What is wrong with the arguments of a call of the compiled part, in words.
+"""Error messages for wrong arguments of the compiled part.
 
-The compiled part asks `explain` in place of pybind11, which would print C++-like signatures. What
-is expected is read from the signature that pybind11 gives.
+The compiled part calls `explain` instead of pybind11, which would print C++-like signatures. The
+expected types are read from the signature that pybind11 gives.
 """
 
 from __future__ import annotations

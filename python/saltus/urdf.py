@@ -1,4 +1,4 @@
-"""From URDF to a model, with what was not used said aloud."""
+"""From URDF to a model, with warnings of elements that are not used."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PACKAGE = str(Path(__file__).parent) + os.sep
 
 
 class ModelWarning(UserWarning):
-    """Something in a model's file was understood but is not used, or was not said and matters."""
+    """An element of a model's file is not used, or a property that matters is missing."""
 
 
 def issue_warnings(texts: Sequence[str]) -> None:
@@ -68,21 +68,21 @@ def load_urdf(
     package_dirs : sequence of str or os.PathLike
         Where `package://name/rest` is looked up: folders that hold `name`, or `name` itself.
     root_joint : JointType or str
-        How the root link hangs on the world: fixed, or by a joint named "root" below a link
+        How the root link is connected to the world: fixed, or by a joint named "root" to a link
         named "world".
     solver : TreeSolver or str
-        How steps solve for velocities: a matter of speed, answers differ by rounding. Rarely
-        worth giving; `TreeSolver` says when, `Model.solvers` what became of it.
+        The linear solver of the steps. It changes the speed, and results by rounding only. Rarely
+        needed; `TreeSolver` says when, `Model.solvers` has the solvers in use.
     meshes : MeshUse or str
-        What becomes of collision meshes: their convex hulls, or nothing. The file's own word on a
-        link, `<mesh link="..." use="..."/>`, comes first.
+        Collision meshes are replaced by their convex hulls, or not used. The file's own setting for
+        a link, `<mesh link="..." use="..."/>`, takes precedence.
     srdf : str or os.PathLike, optional
         SRDF, a file or text: which links never collide. Half-spaces stay watched.
     contact : ContactProperties, optional
-        What happens where two bodies touch, or a body and a floor, and nothing else is said of
-        them: the default contact, in place of the file's own.
+        The default contact, in place of the file's own: restitution and friction of all pairs that
+        nothing else sets.
     floor : bool
-        True: there is a floor, the half-space z <= 0, unless the file has it.
+        True: adds a floor, the half-space z <= 0, unless the file has it.
 
     Returns
     -------

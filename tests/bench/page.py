@@ -9,15 +9,15 @@ from tests.bench import collisions, picture, table
 PAGE = """\
 # Speed
 
-What saltus costs, beside engines that solve the same equations of motion. The numbers on this page
-come from one machine, those of each section from one run; the page is written by the program that
-measures them. To measure again, in a checkout:
+This page compares the speed of saltus with engines that solve the same equations of motion. The
+numbers come from one machine, those of each section from one run. The program that measures them
+writes the page. To measure again, in a checkout:
 
     sh tests/bench/run.sh                                # the tables below, for this machine
     sh tests/bench/run.sh --page python/docs/speed.md    # this page and its picture
 
-The first run downloads the other engines and compiles the programs. Engines that are not there are
-left out, and named.
+The first run downloads the other engines and compiles the programs. Engines that are not installed
+are left out, and named.
 
 ## What was measured
 
@@ -29,9 +29,9 @@ left out, and named.
 
 {ratios}
 
-Where a ratio has no number, the engine was not there, or took so long a step that it was left out,
-or (trep) has published none. A step of 10 ms has no time where Newton's method did not converge:
-long chains and fast arms swing too fast for it.
+A ratio without a number means that the engine was not installed, or was too slow to be measured, or
+(trep) has published none. A step of 10 ms without a time means that Newton's method did not
+converge: long chains and fast arms swing too fast for it.
 
 How times grow with n, as exponents:
 
@@ -56,14 +56,14 @@ has an energy error of 0, and its middle ball rests. [More engines](compare.md) 
 
 ## Batches
 
-`simulate_batch` over threads, beside what a second thread is worth at all on this machine: a loop
-of multiply-adds in registers.
+`simulate_batch` over threads. For comparison, the speed-up of a loop of multiply-adds in registers
+shows how much a second thread gains on this machine.
 
 {batch}
 
 ## All times
 
-[µs]; what the ratios are made of.
+The times behind the ratios, in µs.
 
 {times}
 """

@@ -55,8 +55,11 @@ set(SALTUS_TEST_model
 )
 # The law of contacts by itself; compiled with the sources of its room, which export little.
 set(SALTUS_TEST_law
+  law/test_cascade.cpp
+  law/test_one.cpp
   law/test_project.cpp
   law/test_settle.cpp
+  law/test_together.cpp
 )
 set(SALTUS_TEST_variational
   variational/test_ball_impacts.cpp

@@ -6,7 +6,7 @@ import inspect
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle
+from scenes import bouncing_ball, cradle
 
 import saltus
 from saltus import _core

@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 import pytest
-from helpers import chain, cradle
+from scenes import chain, cradle
 
 import saltus
 

@@ -41,6 +41,7 @@ RESULTS = {
 }
 
 
+@pytest.mark.slow
 def test_quick_benchmarks_run(tmp_path):
     file = tmp_path / "times.json"
     done = subprocess.run(

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain_on_a_body
+from scenes import bouncing_ball, chain_on_a_body
 
 import saltus
 from saltus import JointType, ModelBuilder, Pose, Sphere

@@ -8,7 +8,8 @@ import subprocess
 import sys
 
 import pytest
-from helpers import chain_on_a_body, run_cli
+from helpers import run_cli
+from scenes import chain_on_a_body
 
 import saltus
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scenes import line
 
 import saltus
 from saltus import Box, Capsule, Cylinder, HalfSpace, ImpactOrder, Pose, Sphere
@@ -51,12 +52,8 @@ def test_table_of_pairs_is_true():
                     saltus.gap(a, apart, b, Pose())
 
 
-def in_line(balls: int) -> np.ndarray:
-    return np.eye(balls)[1:] - np.eye(balls)[:-1]
-
-
 def test_newtons_cradle_at_one_instant():
-    outcome = saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, 0])
+    outcome = saltus.resolve_impact(np.eye(3), line(3), [1, 0, 0])
     np.testing.assert_allclose(outcome.v, [0, 0, 1], atol=1e-15)
     assert list(outcome.impulses["pair"]) == [0, 1]
     np.testing.assert_allclose(outcome.impulses["lambda"], [1, 1])
@@ -68,7 +65,7 @@ ONE_AFTER_THE_OTHER = [ImpactOrder.fastest, ImpactOrder.index]
 
 @given(st.lists(st.floats(-10, 10), min_size=2, max_size=7), st.sampled_from(ONE_AFTER_THE_OTHER))
 def test_equal_balls_sort_their_velocities(v, order):
-    outcome = saltus.resolve_impact(np.eye(len(v)), in_line(len(v)), v, order=order)
+    outcome = saltus.resolve_impact(np.eye(len(v)), line(len(v)), v, order=order)
     # neighbours that close by less than 1e-13 |v| sqrt(2) rest on each other, up to 6 in a row
     # (norm() squares: of 1e-311 it is 0; denormal numbers have few digits)
     atol = 6 * 1.5e-13 * math.hypot(*v) + np.finfo(float).tiny
@@ -76,7 +73,7 @@ def test_equal_balls_sort_their_velocities(v, order):
 
 
 def test_restitution():
-    outcome = saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, -1], restitution=0.5)
+    outcome = saltus.resolve_impact(np.eye(3), line(3), [1, 0, -1], restitution=0.5)
     # three impulses whatever the order of the first two
     assert len(outcome.impulses) == 3
     assert np.all(np.diff(outcome.v) >= 0)
@@ -86,10 +83,10 @@ def test_restitution():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((np.eye(2), in_line(3), [1, 0, 0]), "M is (2, 2)"),
-        ((np.eye(3), in_line(2), [1, 0, 0]), "N is (1, 2)"),
-        ((np.eye(3), in_line(3), [np.nan, 0, 0]), "not finite"),
-        ((-np.eye(3), in_line(3), [1, 0, 0]), "positive definite"),
+        ((np.eye(2), line(3), [1, 0, 0]), "M is (2, 2)"),
+        ((np.eye(3), line(2), [1, 0, 0]), "N is (1, 2)"),
+        ((np.eye(3), line(3), [np.nan, 0, 0]), "not finite"),
+        ((-np.eye(3), line(3), [1, 0, 0]), "positive definite"),
     ],
 )
 def test_problems_that_are_none(arguments, message):
@@ -100,9 +97,9 @@ def test_problems_that_are_none(arguments, message):
 
 def test_restitution_out_of_range():
     with pytest.raises(saltus.ModelError, match=r"1\.5"):
-        saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, 0], restitution=1.5)
+        saltus.resolve_impact(np.eye(3), line(3), [1, 0, 0], restitution=1.5)
     with pytest.raises(TypeError):
-        saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, 0], 0.5)  # keyword-only
+        saltus.resolve_impact(np.eye(3), line(3), [1, 0, 0], 0.5)  # keyword-only
 
 
 def test_a_jammed_ball_is_told():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import puck
+from scenes import on_slope, puck
 
 import saltus
 
@@ -15,14 +15,7 @@ DOWNHILL = np.array([np.cos(A), 0, -np.sin(A)])
 
 def block_on_slope(friction: float) -> saltus.Model:
     """Return a free box of 2 kg that lies on a slope which falls towards +x."""
-    up = np.array([np.sin(A), 0, np.cos(A)])
-    placed = saltus.Pose(0.1 * up, saltus.rotation_from_rpy(0, A, 0))
-    half = (0.3, 0.2, 0.1)
-    builder = saltus.ModelBuilder("block").add_link("block", saltus.solid_box(2.0, half))
-    floating = saltus.JointType.floating
-    builder.add_joint("free", floating, parent="world", child="block", X_PJ=placed)
-    builder.add_shape("block", saltus.Box(half)).add_half_space("slope", up)
-    return builder.set_default_contact(restitution=0, friction=friction).build()
+    return on_slope(saltus.Box((0.3, 0.2, 0.1)), A, restitution=0, friction=friction)
 
 
 def contacts_after(model: saltus.Model, state: saltus.State, steps: int = 5):

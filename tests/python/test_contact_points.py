@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import puck
+from scenes import add_in_the_plane, puck, two_bodies
 
 import saltus
 
 G, H = 9.81, 0.01
 
 
-def flat_box(builder: saltus.ModelBuilder, half=(0.3, 0.2, 0.1), mass=2.0) -> saltus.ModelBuilder:
-    """Add a box that moves in x and z and turns about y."""
-    builder.add_link("slide").add_link("lift").add_link("box", saltus.solid_box(mass, half))
-    prismatic = saltus.JointType.prismatic
-    builder.add_joint("x", prismatic, parent="world", child="slide", axis=(1, 0, 0))
-    builder.add_joint("z", prismatic, parent="slide", child="lift", axis=(0, 0, 1))
-    turns = saltus.JointType.continuous
-    builder.add_joint("turn", turns, parent="lift", child="box", axis=(0, 1, 0))
-    return builder.add_shape("box", saltus.Box(half))
+def flat_box(builder: saltus.ModelBuilder) -> saltus.ModelBuilder:
+    """Add a box of 2 kg that moves in x and z and turns about y."""
+    return add_in_the_plane(builder, "box", saltus.Box((0.3, 0.2, 0.1)), 2.0)
 
 
 def moments(run: saltus.Trajectory) -> np.ndarray:
@@ -81,10 +75,8 @@ def test_what_holds_a_box_that_slides_to_rest_balances_it_step_by_step():
 def test_a_box_at_rest_stands_on_its_corners():
     half = np.array([0.3, 0.2, 0.1])
     at = np.array([1.0, -2.0, 0.1])
-    builder = saltus.ModelBuilder("box").add_link("box", saltus.solid_box(2.0, half))
-    floating = saltus.JointType.floating
-    builder.add_joint("free", floating, parent="world", child="box", X_PJ=saltus.Pose(at))
-    builder.add_shape("box", saltus.Box(half)).add_half_space("floor", (0, 0, 1))
+    builder = saltus.ModelBuilder("box").add_half_space("floor", (0, 0, 1))
+    builder.add_body("box", saltus.Box(half), mass=2.0, X=saltus.Pose(at))
     model = builder.set_default_contact(restitution=0, friction=0.5).build()
     stepper = saltus.Stepper(model, h=H)
     stepper.advance(model.state())
@@ -101,13 +93,7 @@ def test_a_box_at_rest_stands_on_its_corners():
 def test_a_ball_touches_a_slope_below_its_centre():
     a, r = 0.3, 0.1
     up = np.array([np.sin(a), 0, np.cos(a)])
-    builder = saltus.ModelBuilder("ball").add_link("slide").add_link("lift")
-    builder.add_link("ball", saltus.solid_sphere(1.0, r)).add_shape("ball", saltus.Sphere(r))
-    prismatic = saltus.JointType.prismatic
-    builder.add_joint("x", prismatic, parent="world", child="slide", axis=(1, 0, 0))
-    builder.add_joint("z", prismatic, parent="slide", child="lift", axis=(0, 0, 1))
-    turns = saltus.JointType.continuous
-    builder.add_joint("turn", turns, parent="lift", child="ball", axis=(0, 1, 0))
+    builder = add_in_the_plane(saltus.ModelBuilder("ball"), "ball", saltus.Sphere(r), 1.0)
     builder.add_half_space("slope", up).set_default_contact(restitution=0, friction=0.5)
     model = builder.build()
     start = model.state({"x": r * up[0], "z": r * up[2]})
@@ -127,18 +113,10 @@ def test_a_ball_touches_a_slope_below_its_centre():
     np.testing.assert_allclose(c["tangential"] @ up, 0, atol=1e-15)
 
 
-def two_bodies(one: saltus.Box | saltus.Sphere, other: saltus.Box | saltus.Sphere) -> saltus.Model:
-    """Return a model of two free bodies of 1 kg without gravity."""
-    builder = saltus.ModelBuilder("two").set_gravity((0, 0, 0))
-    for name, shape in (("one", one), ("other", other)):
-        builder.add_link(name, saltus.solid_sphere(1.0, 0.1)).add_shape(name, shape)
-        builder.add_joint(name, saltus.JointType.floating, parent="world", child=name)
-    return builder.build()
-
-
 def test_two_balls_meet_on_the_line_of_their_centres():
     radii, at, there = (0.1, 0.25), np.array([-1, 0.05, 0.02]), np.array([0.4, -0.03, 0.1])
-    model = two_bodies(*(saltus.Sphere(radius) for radius in radii))
+    one, other = (saltus.Sphere(radius) for radius in radii)
+    model = two_bodies(one=one, other=other).set_gravity((0, 0, 0)).build()
     start = {"one": saltus.Pose(at), "other": saltus.Pose(there)}
     run = saltus.simulate(model, q=start, v={"one_vx": 2.0, "other_vy": 0.1}, duration=1.0, h=H)
     (impact,) = (run.impact(i) for i in range(len(run.impacts)))
@@ -159,7 +137,7 @@ def test_edges_meet_where_they_cross():
     on_edge = saltus.Pose.from_rpy(np.pi / 4, 0, 0)
     upper = saltus.Pose((0, 0, 2 * down + 0.3)) * on_edge
     lower = saltus.Pose.from_rpy(0, 0, np.pi / 2, p=(0.1, 0.2, 0)) * on_edge
-    model = two_bodies(box, box)
+    model = two_bodies(one=box, other=box).set_gravity((0, 0, 0)).build()
     for one, other, falls in ((upper, lower, "one"), (lower, upper, "other")):
         start = {"one": one, "other": other}
         run = saltus.simulate(model, q=start, v={f"{falls}_vz": -1.0}, duration=0.5, h=H)
@@ -172,9 +150,7 @@ def test_edges_meet_where_they_cross():
 
 def toss(builder: saltus.ModelBuilder, **options) -> saltus.Trajectory:
     """Throw a box of 2 kg that turns about all axes into what the builder has."""
-    half = (0.3, 0.2, 0.1)
-    builder.add_link("box", saltus.solid_box(2.0, half)).add_shape("box", saltus.Box(half))
-    builder.add_joint("free", saltus.JointType.floating, parent="world", child="box")
+    builder.add_body("box", saltus.Box((0.3, 0.2, 0.1)), mass=2.0, joint_name="free")
     start = {"free": saltus.Pose.from_rpy(0.4, -0.3, 1.1, p=(0, 0, 1))}
     v = {"free": (2, 0.3, 1, 3, -4, 2)}
     return saltus.simulate(builder.build(), q=start, v=v, h=H, record_contacts=True, **options)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenes import line
 from scipy.optimize import linprog
 
 import saltus
@@ -17,10 +18,6 @@ from saltus import ImpactKind, ImpactOrder
 C = math.sqrt(3) / 2
 BERNOULLI = np.array([[-C, 0.5, C, -0.5, 0, 0], [-C, -0.5, 0, 0, C, 0.5]])
 CUE = [2, 0, 0, 0, 0, 0]
-
-
-def in_line(balls: int) -> np.ndarray:
-    return np.eye(balls)[1:] - np.eye(balls)[:-1]
 
 
 def wedge(theta: float) -> np.ndarray:
@@ -44,7 +41,7 @@ def rack(rows: int = 5) -> tuple[np.ndarray, list[int]]:
 
 
 def test_generalized_reflections():
-    out = saltus.resolve_impact(np.eye(3), in_line(3), [2, 1.5, -1], order=ImpactOrder.symmetric)
+    out = saltus.resolve_impact(np.eye(3), line(3), [2, 1.5, -1], order=ImpactOrder.symmetric)
     np.testing.assert_allclose(out.v, [-1 / 3, 1 / 6, 8 / 3], atol=1e-15)
     assert list(out.impulses["pair"]) == [0, 1]
     out = saltus.resolve_impact(np.eye(6), BERNOULLI, CUE, order=ImpactOrder.symmetric)
@@ -65,22 +62,22 @@ def test_a_billiard_break_keeps_its_mirror(e):
 
 
 def test_restitution_of_each_contact():
-    out = saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, -1], restitution=[0, 1])
+    out = saltus.resolve_impact(np.eye(3), line(3), [1, 0, -1], restitution=[0, 1])
     np.testing.assert_allclose(out.v, [-0.25, -0.25, 0.5], atol=1e-15)
     with pytest.raises(saltus.ModelError, match="3 entries; N has 2 rows"):
-        saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, -1], restitution=[0, 1, 1])
+        saltus.resolve_impact(np.eye(3), line(3), [1, 0, -1], restitution=[0, 1, 1])
     with pytest.raises(saltus.ModelError, match="one number or one for each contact, not 'much'"):
-        saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, -1], restitution="much")
+        saltus.resolve_impact(np.eye(3), line(3), [1, 0, -1], restitution="much")
 
 
 @pytest.mark.parametrize("order", ImpactOrder)
 def test_plastic_impacts_are_a_projection(order):
-    out = saltus.resolve_impact(np.eye(3), in_line(3), [1, 0, 0], restitution=0, order=order)
+    out = saltus.resolve_impact(np.eye(3), line(3), [1, 0, 0], restitution=0, order=order)
     np.testing.assert_allclose(out.v, [1 / 3, 1 / 3, 1 / 3], atol=1e-15)
 
 
 def test_certificates():
-    cradle = saltus.classify_impact(np.eye(5), in_line(5))
+    cradle = saltus.classify_impact(np.eye(5), line(5))
     assert repr(cradle) == "<ImpactCertificate: unique, A4, at most 10 impulses>"
     assert cradle.kind is ImpactKind.unique
     np.testing.assert_allclose(cradle.angles[0, :3], [np.pi, np.pi / 3, np.pi / 2])
@@ -91,10 +88,10 @@ def test_certificates():
     assert walls.interior == 0
     assert walls.impulses is None
     assert repr(saltus.classify_impact([[1.0]], [[1.0]])).endswith("A1, at most 1 impulse>")
-    assert saltus.classify_impact(np.eye(3), in_line(3), restitution=0).type == "plastic"
+    assert saltus.classify_impact(np.eye(3), line(3), restitution=0).type == "plastic"
     assert saltus.classify_impact(np.eye(2), [[1, 0], [3, 0], [0, 1]]).same == [0, 0, 2]
     with pytest.raises(saltus.ModelError, match="tolerance 2"):
-        saltus.classify_impact(np.eye(2), in_line(2), tolerance=2)
+        saltus.classify_impact(np.eye(2), line(2), tolerance=2)
 
 
 @given(st.integers(2, 40))
@@ -115,11 +112,11 @@ def test_outcomes_of_bernoullis_problem():
 
 
 def test_outcomes_of_equal_balls():
-    every = saltus.impact_outcomes(np.eye(6), in_line(6), np.linspace(1, 0, 6))
+    every = saltus.impact_outcomes(np.eye(6), line(6), np.linspace(1, 0, 6))
     assert repr(every) == "<ImpactOutcomes: 1 outcome, 720 velocities met>"
     assert len(every.outcomes[0].impulses) == 15
     with pytest.raises(saltus.ModelError, match="max_states = 100 velocities: raise max_states"):
-        saltus.impact_outcomes(np.eye(6), in_line(6), np.linspace(1, 0, 6), max_states=100)
+        saltus.impact_outcomes(np.eye(6), line(6), np.linspace(1, 0, 6), max_states=100)
     with pytest.raises(saltus.JammedError, match="leads back, by 2 impulses"):
         saltus.impact_outcomes([[1.0]], [[1.0], [-1.0]], [1.0])
 
@@ -144,11 +141,11 @@ def test_the_cone_is_open_where_a_linear_programme_says_so(seed, n, m):
 def test_an_impact_is_unique_for_all_velocities_or_not_certified(seed):
     random = np.random.default_rng(seed)
     M = np.diag(random.choice([0.5, 1.0, 2.0], size=3))
-    certificate = saltus.classify_impact(M, in_line(3))
+    certificate = saltus.classify_impact(M, line(3))
     counts = set()
     for _ in range(30):
         v = np.cumsum(-random.uniform(size=3))  # all approach
-        every = saltus.impact_outcomes(M, in_line(3), v)
+        every = saltus.impact_outcomes(M, line(3), v)
         counts.add(len(every.outcomes))
         assert all(len(out.impulses) <= certificate.impulses for out in every.outcomes)
     assert (counts == {1}) == (certificate.kind is ImpactKind.unique)

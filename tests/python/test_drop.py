@@ -7,19 +7,11 @@ import warnings
 
 import numpy as np
 import pytest
-from helpers import chain_on_a_body
+from scenes import BALL, chain_on_a_body
 
 import saltus
 from saltus import Box, ContactProperties, JointType, ModelBuilder, Pose, Sphere
 
-BALL = """
-<robot name="ball">
-  <link name="ball">
-    <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
-    <collision><geometry><sphere radius="0.1"/></geometry></collision>
-  </link>
-</robot>
-"""
 G = 9.81
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from tests.conftest import ROOT
@@ -86,10 +87,16 @@ PREDICTED = {
     "pendulum_and_wall": ["first impact at 0.5105 s", "then every 1.0210 s", "highest 0.5000 rad"],
 }
 ARGUMENTS = {"compare_engines": ["--quick"]}
+SLOW = {"compare_engines", "pairs"}
 WRITTEN = {"compare_engines": ["compare.png"], "fig3": ["fig3.png"], "pairs": ["pairs.png"]}
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def mark(example: Path) -> object:
+    marks = [pytest.mark.slow] if example.stem in SLOW else []
+    return pytest.param(example, id=example.stem, marks=marks)
+
+
+@pytest.mark.parametrize("example", map(mark, EXAMPLES))
 def test_example_prints_what_it_predicts(example, tmp_path):
     done = subprocess.run(
         [sys.executable, example, *ARGUMENTS.get(example.stem, [])],

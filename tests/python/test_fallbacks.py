@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import thrown
 
 import saltus
 from saltus.records.tables import counted
@@ -15,8 +16,7 @@ H = 0.005
 
 
 def can() -> saltus.Model:
-    builder = saltus.ModelBuilder().add_floor().set_default_contact(restitution=0, friction=0)
-    return builder.add_body("can", saltus.Cylinder(0.1, 0.1), mass=1).build()
+    return thrown(saltus.Cylinder(0.1, 0.1), restitution=0, friction=0)
 
 
 def start(model: saltus.Model) -> dict[str, object]:

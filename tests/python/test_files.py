@@ -5,7 +5,7 @@ from __future__ import annotations
 import h5py
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain_on_a_body, cradle_run, puck
+from scenes import bouncing_ball, chain_on_a_body, cradle_run, puck
 
 import saltus
 from saltus.records.files import OPTIONS

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.conftest import slow_cases
 
 ROOT = Path(__file__).parents[2]
 INCLUDE = ROOT / "cpp" / "include" / "saltus"
@@ -241,6 +242,13 @@ def test_every_source_file_is_listed(listing, base, folders):
     }
     assert not listed - present, f"{listing} lists files that do not exist"
     assert not present - listed, f"append these to {listing}"
+
+
+def test_slow_cpp_tests_exist():
+    sources = "".join(path.read_text() for path in (ROOT / "tests" / "cpp").rglob("test_*.cpp"))
+    cases = {".".join(x) for x in re.findall(r"TEST\w*\(\s*(\w+),\s*(\w+)\)", sources)}
+    assert slow_cases()
+    assert not slow_cases() - cases, "tests/cpp/slow.txt names tests that do not exist"
 
 
 def test_cpp_functions_are_found():

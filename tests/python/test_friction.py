@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import puck
+from scenes import puck
 
 import saltus
 

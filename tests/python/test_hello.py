@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import pytest
 from tests.conftest import ROOT, cmake, configure, package_prefix
 
 EXAMPLES = ROOT / "examples"
@@ -25,6 +26,7 @@ def check_output(command: list[object]) -> list[str]:
     return [first, second]
 
 
+@pytest.mark.slow
 def test_both_say_the_same(tmp_path):
     python = check_output([sys.executable, EXAMPLES / "hello_cradle.py"])
     (tmp_path / "CMakeLists.txt").write_text(CMAKE)

@@ -9,6 +9,7 @@ import pytest
 from tests.bench import instructions
 
 
+@pytest.mark.slow
 def test_instructions_stay_within_the_budget():
     if shutil.which("valgrind") is None:
         pytest.skip(instructions.VALGRIND)

@@ -7,7 +7,8 @@ import sys
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle, run_cli
+from helpers import run_cli
+from scenes import bouncing_ball, cradle
 
 import saltus
 

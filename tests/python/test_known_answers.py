@@ -11,16 +11,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import beads, bouncing_ball, line
 
 import saltus
 
 URDF = Path(__file__).parents[2] / "urdf"
 EXACT = 1e-14  # sums of a few numbers of size 1
-
-
-def line(count):
-    """Return the gradients of the gaps x_(i+1) - x_i - 2r."""
-    return np.eye(count - 1, count, 1) - np.eye(count - 1, count)
 
 
 def resolve(v, *, masses=None, **options):
@@ -71,15 +67,7 @@ def test_moreaus_law_as_a_function():
         plastic = saltus.resolve_impact(problem.M, problem.N, v, restitution=0).v
         return problem.M @ (2 * plastic - v)
 
-    builder = saltus.ModelBuilder("beads").set_gravity((0, 0, 0))
-    for i in range(3):
-        builder.add_link(f"x_{i}", saltus.solid_sphere(1.0, 0.05))
-        builder.add_joint(
-            f"x_{i}", saltus.JointType.prismatic, parent="world", child=f"x_{i}", axis=(1, 0, 0),
-            X_PJ=saltus.Pose((0.1 * i, 0, 0)),
-        )  # fmt: skip
-        builder.add_shape(f"x_{i}", saltus.Sphere(0.05))
-    model = builder.build()
+    model = beads(3).build()
     state = saltus.Stepper(model, law=moreau).advance(model.state(v=[1, 0, 0]))
     np.testing.assert_allclose(state.p, [-1 / 3, 2 / 3, 2 / 3], atol=1e-12)
 
@@ -170,14 +158,7 @@ def test_infinitely_many_impulses_below_one_restitution():
 
 
 def test_a_bouncing_ball_comes_to_rest():
-    builder = saltus.ModelBuilder("ball")
-    builder.add_link("ball", saltus.solid_sphere(1.0, 0.05))
-    builder.add_joint(
-        "z", saltus.JointType.prismatic, parent="world", child="ball", axis=(0, 0, 1)
-    )  # fmt: skip
-    builder.add_shape("ball", saltus.Sphere(0.05))
-    builder.add_half_space("floor", (0, 0, 1), -0.05)
-    model = builder.set_default_contact(restitution=0.5).build()
+    model = bouncing_ball(height=0.0).set_default_contact(restitution=0.5).build()
     run = saltus.simulate(model, q={"z": 1.0}, duration=1.5)
     assert run.settlings["t"][0] == pytest.approx(1.354571, abs=1e-6)
 

@@ -4,31 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import beads, bouncing_ball
 
 import saltus
 
 
-def bead(name, x, builder, axis=(1, 0, 0)):
-    builder.add_link(name, saltus.solid_sphere(1.0, 0.05))
-    builder.add_joint(
-        name, saltus.JointType.prismatic, parent="world", child=name, axis=axis,
-        X_PJ=saltus.Pose((x, 0, 0)),
-    )  # fmt: skip
-    builder.add_shape(name, saltus.Sphere(0.05))
-
-
-def beads(count, **contact):
-    builder = saltus.ModelBuilder("beads").set_gravity((0, 0, 0))
-    for i in range(count):
-        bead(f"x_{i}", 0.1 * i, builder)
-    return builder.set_default_contact(**contact).build()
-
-
 def ball(restitution):
-    builder = saltus.ModelBuilder("ball")
-    bead("z", 0, builder, axis=(0, 0, 1))
-    builder.add_half_space("floor", (0, 0, 1), -0.05)
-    return builder.set_default_contact(restitution=restitution).build()
+    return bouncing_ball(height=0.0).set_default_contact(restitution=restitution).build()
 
 
 LAWS = [law for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom]
@@ -36,7 +18,7 @@ LAWS = [law for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom]
 
 @pytest.mark.parametrize("law", LAWS)
 def test_every_law_sorts_velocities_of_equal_balls(law):
-    model = beads(5)
+    model = beads(5).build()
     v = [3.0, -1.0, 2.0, 0.5, -2.0]
     run = saltus.simulate(model, v=v, duration=0.05, law=law)
     np.testing.assert_allclose(run.v[-1], sorted(v), atol=1e-12)
@@ -44,9 +26,7 @@ def test_every_law_sorts_velocities_of_equal_balls(law):
 
 
 def test_restitution_of_materials_decides():
-    builder = saltus.ModelBuilder("beads").set_gravity((0, 0, 0))
-    for i in range(3):
-        bead(f"x_{i}", 0.1 * i, builder)
+    builder = beads(3)
     builder.set_material("x_0", "clay").set_material("x_1", "clay").set_material("x_2", "steel")
     builder.set_contact("clay", "clay", restitution=0.0).set_contact("clay", "steel")
     model = builder.build()
@@ -61,7 +41,7 @@ def test_restitution_of_materials_decides():
 def test_a_ball_comes_to_rest_when_it_should():
     run = saltus.simulate(ball(0.5), q={"z": 1.0}, duration=3.0)
     assert run.settlings["t"] == pytest.approx([1.354571], abs=5e-7)
-    assert run.pair_names[run.settlings["pair"][0]] == "z ~ floor"
+    assert run.pair_names[run.settlings["pair"][0]] == "ball ~ floor"
     assert np.abs(run.q[-100:]).max() < 1e-12
 
 
@@ -118,7 +98,7 @@ def _seen(model, state):
 
 
 def test_an_overlap_is_resolved():
-    model = beads(3)
+    model = beads(3).build()
     with pytest.raises(saltus.ModelError, match=r"x_0 ~ x_1 by 0.03 m.*resolve_overlap"):
         saltus.Stepper(model).advance(model.state(q={"x_0": 0.03}))
     q = saltus.resolve_overlap(model, {"x_0": 0.03})

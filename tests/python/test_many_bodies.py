@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import saltus
 
@@ -16,19 +17,19 @@ def gas(n: int) -> tuple[saltus.Model, np.ndarray, np.ndarray]:
     side = int(np.ceil(n ** (1 / 3)))
     places = 1.5 * np.array([(i % side, i // side % side, i // side**2) for i in range(n)])
     for i in range(n):
-        builder.add_link(f"ball_{i}", saltus.solid_sphere(1.0, 0.5))
-        builder.add_joint(
-            f"slide_{i}",
-            saltus.JointType.prismatic,
-            parent="world",
-            child=f"ball_{i}",
-            X_PJ=saltus.Pose(places[i]),
+        builder.add_body(
+            f"ball_{i}",
+            saltus.Sphere(0.5),
+            mass=1.0,
+            joint=saltus.JointType.prismatic,
+            joint_name=f"slide_{i}",
+            X=saltus.Pose(places[i]),
             axis=axes[i],
         )
-        builder.add_shape(f"ball_{i}", saltus.Sphere(0.5))
     return builder.build(), places, axes
 
 
+@pytest.mark.slow
 def test_a_gas_of_two_thousand_balls_keeps_its_energy():
     n = 2000
     model, places, axes = gas(n)

@@ -8,9 +8,10 @@ import pickle
 
 import numpy as np
 import pytest
-from helpers import chain, cradle, random_state
+from helpers import random_state
 from hypothesis import given
 from hypothesis import strategies as st
+from scenes import chain, cradle
 
 import saltus
 

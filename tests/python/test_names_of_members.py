@@ -8,22 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from helpers import cradle
+from scenes import BALL, cradle
 
 import saltus
 
 JOINT = {"parent": "world", "child": "arm"}
 CHAIN = saltus.scenes.chain(1)
-BALL = """
-<robot name="ball">
-  <link name="ball">
-    <inertial>
-      <mass value="1"/>
-      <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-  </link>
-</robot>
-"""
 
 
 def chain() -> saltus.ModelBuilder:

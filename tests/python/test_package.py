@@ -38,6 +38,7 @@ def test_old_paths_of_plots_still_work(name):
         assert getattr(old, each) is getattr(new, each)
 
 
+@pytest.mark.slow
 def test_cpp_project_finds_the_pip_package(tmp_path):
     command = [sys.executable, "-m", "saltus", "cmake-dir"]
     prefix = subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
@@ -45,6 +46,7 @@ def test_cpp_project_finds_the_pip_package(tmp_path):
     assert build_and_run_consumer(tmp_path, prefix) == "6 coordinates\n"
 
 
+@pytest.mark.slow
 def test_cpp_project_finds_an_installed_tree(tmp_path):
     # The build folder stays, so that a second run compiles only what changed; -O0 and nothing for
     # debuggers, because here the install counts.

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from scenes import two_bodies
 from tests.conftest import ROOT
 
 import saltus
@@ -56,14 +57,11 @@ GAPS = {
 
 def both(a, b) -> saltus.Model:
     """Return two free bodies, or one over a half-space."""
-    builder = saltus.ModelBuilder()
-    for name, shape in (("a", a), ("b", b)):
+    free = {n: s for n, s in (("a", a), ("b", b)) if not isinstance(s, HalfSpace)}
+    builder = two_bodies(**free)
+    for shape in (a, b):
         if isinstance(shape, HalfSpace):
             builder.add_shape("world", shape)
-            continue
-        builder.add_link(name, saltus.solid_sphere(1.0, 0.1))
-        builder.add_joint(name, saltus.JointType.floating, parent="world", child=name)
-        builder.add_shape(name, shape)
     return builder.set_default_contact(restitution=1, friction=0).build()
 
 
@@ -117,6 +115,7 @@ def test_radii_add_in_the_curvature():
     assert gap.phi == pytest.approx(0.5)
 
 
+@pytest.mark.slow
 def test_pictures_of_pairs(tmp_path):
     pytest.importorskip("matplotlib")
     from saltus.plots import pairs as plots_pairs

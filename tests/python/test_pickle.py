@@ -8,7 +8,7 @@ import pickle
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle, puck
+from scenes import bouncing_ball, cradle, puck
 
 import saltus
 

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain, cradle, cradle_run
+from scenes import bouncing_ball, chain, cradle, cradle_run
 
 import saltus
 from saltus import plots

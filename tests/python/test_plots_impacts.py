@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle, cradle_run
+from scenes import bouncing_ball, cradle, cradle_run
 from test_plots import pixels
 
 import saltus

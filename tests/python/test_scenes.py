@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from helpers import cradle
+from scenes import cradle
 
 import saltus
 

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain, cradle, cradle_run
+from scenes import bouncing_ball, chain, cradle, cradle_run
 
 import saltus
 

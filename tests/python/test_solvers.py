@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain_on_a_body, run_cli
+from helpers import run_cli
+from scenes import bouncing_ball, chain_on_a_body
 
 import saltus
 from saltus import TreeSolver

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, chain, cradle
+from scenes import bouncing_ball, chain, cradle
 
 import saltus
 

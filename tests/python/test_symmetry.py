@@ -25,13 +25,12 @@ def discs(centers):
     """Return billiard balls of radius .5 and mass 1 at these places, and no gravity."""
     builder = saltus.ModelBuilder("discs").set_gravity((0, 0, 0))
     for i, (x, y) in enumerate(centers):
-        builder.add_link(f"slide_{i}").add_link(f"disc_{i}", saltus.solid_sphere(1.0, 0.5))
+        builder.add_link(f"slide_{i}")
         prismatic = saltus.JointType.prismatic
         builder.add_joint(f"x_{i}", prismatic, parent="world", child=f"slide_{i}", axis=(1, 0, 0),
                           X_PJ=saltus.Pose((x, y, 0)))  # fmt: skip
-        builder.add_joint(f"y_{i}", prismatic, parent=f"slide_{i}", child=f"disc_{i}",
-                          axis=(0, 1, 0))  # fmt: skip
-        builder.add_shape(f"disc_{i}", saltus.Sphere(0.5))
+        builder.add_body(f"disc_{i}", saltus.Sphere(0.5), mass=1.0, joint=prismatic,
+                         joint_name=f"y_{i}", parent=f"slide_{i}", axis=(0, 1, 0))  # fmt: skip
     return builder
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import thrown
 
 import saltus
 
@@ -21,9 +22,7 @@ MATERIALS = ((0, 0), (0.3, 0.5), (0.5, 0), (0.9, 0.2), (0, 0.8))  # restitution,
 
 def throw(shape: str, restitution: float, friction: float, rng: np.random.Generator):
     """Return the model and the run of one body: any attitude, up to 10 rad/s about any axis."""
-    builder = saltus.ModelBuilder().add_floor()
-    builder.set_default_contact(restitution=restitution, friction=friction)
-    model = builder.add_body("body", SHAPES[shape], mass=1).build()
+    model = thrown(SHAPES[shape], restitution=restitution, friction=friction)
     attitude, axis = rng.normal(size=4), rng.normal(size=3)
     q = model.normalized([0, 0, rng.uniform(0.5, 1), *attitude / np.linalg.norm(attitude)])
     spin = rng.uniform(0, 10) * axis / np.linalg.norm(axis)

@@ -97,7 +97,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
         help="velocity at the start [rad/s | m/s]; may be repeated, the others are 0",
     )
     add("--duration", type=float, default=10.0, metavar="S", help="[s] default: %(default)s")
-    add("--h", type=float, default=0.01, metavar="S", help="[s] step; default: %(default)s")
+    add("--h", type=float, default=0.01, metavar="S", help="[s] time step; default: %(default)s")
     add(
         "--law",
         choices=[law.name for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom],
@@ -108,13 +108,13 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
         "--order",
         choices=[order.name for order in saltus.ImpactOrder],
         default=saltus.ImpactOrder.fastest.name,
-        help="which of several approaching contacts is next; default: %(default)s",
+        help="which approaching contact takes the next impulse; default: %(default)s",
     )
     add("--record-every", type=int, default=1, metavar="N", help="steps between recorded rows")
     add("--contacts", action="store_true", help="--out has every impulse between bodies as well")
     add("--no-collisions", action="store_true", help="bodies pass through each other")
     add("--out", metavar="FILE.h5", help="write the trajectory to this HDF5 file")
-    add("--plot", metavar="FILE.png", help="write a picture; its ending says in which format")
+    add("--plot", metavar="FILE.png", help="write a picture; the suffix selects the format")
     add(
         "--plot-impacts",
         metavar="FILE.png",
@@ -128,7 +128,7 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
 def _add_info(commands_of: Commands[Parser]) -> None:
     parser = commands_of.add_parser(
         "info",
-        help="print what a model consists of",
+        help="print the parts of a model",
         description="Print links, coordinates, shapes and pairs of a URDF file, and how its "
         "trees are solved.",
     )
@@ -151,7 +151,7 @@ def _add_loading(parser: argparse.ArgumentParser) -> None:
         "--contact",
         metavar="E,MU",
         type=commands.contact,
-        help="restitution and friction where the file says nothing of two materials, as in 0,0.5",
+        help="restitution and friction of the default contact, as in 0,0.5",
     )
     add("--srdf", metavar="FILE", help="SRDF file that says which links never collide")
     add("--no-meshes", action="store_true", help="collision meshes are not used")

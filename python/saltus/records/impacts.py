@@ -1,4 +1,4 @@
-"""Impacts in words: a line that sums one up, and its cascade of impulses as a table."""
+"""Impacts as text: a line that sums one up, and its cascade (its impulses in order) as a table."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def headline(impact: Impact) -> str:
 
 
 def count_line(impact: Impact) -> str:
-    """Return how many impulses on how many contacts, and what is certain of the outcome.
+    """Return the numbers of impulses and contacts, and whether the outcome is unique.
 
     Parameters
     ----------
     impact : Impact
-        Where it has an attribute `certificate` that says something, that comes last.
+        Its `certificate` comes last, if it has one that is not empty.
 
     Returns
     -------
@@ -41,16 +41,16 @@ def count_line(impact: Impact) -> str:
 
 
 def impact_table(impact: Impact, *, most: int | None = None) -> str:
-    """Return the cascade of an impact as text: its impulses in order, one a line.
+    """Return the cascade of an impact as text: its impulses in order, one per line.
 
-    `print(run.impact(0))` prints this, the middle of a long cascade left out. With friction there
-    is a column of its impulses on the first shape of each pair, in the world.
+    `print(run.impact(0))` prints this, without the middle of a long cascade. With friction there is
+    a column of friction impulses on the first shape of each pair, in the world frame.
 
     Parameters
     ----------
     impact : Impact
     most : int, optional
-        Rows; of longer cascades the middle is left out. None: all of them.
+        Number of rows; longer cascades are printed without their middle. None: all.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What is recorded of a run, with accessors; `Trajectory` adds what takes files and plots."""
+"""The recorded data of a run, with accessors; `Trajectory` adds files and plots."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Recording:
-    """The data of a run; `Trajectory` says of each array what it holds."""
+    """The data of a run; `Trajectory` documents the arrays."""
 
     model: Model | None
     options: StepOptions
@@ -59,7 +59,7 @@ class Recording:
 
     @property
     def contacts(self) -> npt.NDArray[np.void]:
-        """Every impulse between bodies, see `Trajectory`; ModelError where not recorded."""
+        """Every impulse between bodies, see `Trajectory`; ModelError if not recorded."""
         if self.recorded_contacts is None:
             raise ModelError(
                 "the contacts of this run were not recorded; ask for them: "
@@ -141,7 +141,7 @@ class Recording:
         Raises
         ------
         ModelError
-            On a name that the array has not; lists those there are.
+            On an unknown name; lists the names there are.
         """
         index = index_of(name, of, self.coordinate_names, self.velocity_names)
         rows: Array = getattr(self, of)
@@ -152,7 +152,7 @@ class Recording:
         return State(float(self.t[row]), self.q[row], self.p[row])
 
     def impact(self, index: int) -> Impact:
-        """Return one impact with its pairs by name; printed, it is a table of its cascade."""
+        """Return one impact with its pairs by name; it prints as a table of its impulses."""
         row = self.impacts[index]
         own = self.impulses[row["first"] : row["first"] + row["count"]]
         return Impact(

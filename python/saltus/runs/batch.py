@@ -45,46 +45,46 @@ def simulate_batch(
     progress: bool | Progress | None = None,
     **bounds: Unpack[StepBounds],
 ) -> BatchTrajectory:
-    """Run a model from many starts, over threads, and record all runs.
+    """Run a model from many starts, on several threads, and record all runs.
 
-    Every run has the bits that `simulate` gives for its start, on however many threads. The
+    Every run is bitwise equal to that of `simulate` from its start, for any number of threads. The
     interpreter's lock is released meanwhile.
 
     Parameters
     ----------
     model : Model
     q : array_like, shape (B, n_q), or mapping of names to arrays of shape (B,), optional
-        [rad | m] coordinates at the starts, a row a run; those not named are as in
-        `Model.neutral`. What has one dimension less, (n_q,) or a number, is the same for all runs.
-        A free or ball joint's name takes all of its numbers, shape (B, 7) or (B, 4), or a SciPy
-        Rotation of a ball.
+        [rad | m] coordinates at the starts, a row for each run; those not named are as in
+        `Model.neutral`. A value with one dimension less, (n_q,) or a number, is that of all runs.
+        A free or ball joint takes all its coordinates by its name, shape (B, 7) or (B, 4), or a
+        ball joint a SciPy Rotation.
     v : array_like, shape (B, n_v), or mapping of names to arrays of shape (B,), optional
         [rad/s | m/s] velocities at the starts, likewise, those not named 0.
     duration : float
         [s] a whole number of steps.
     h : float
-        [s] step.
+        [s] time step.
     law : ImpactLaw, str or callable
         Which energy impacts conserve, see `ImpactLaw`. A callable is given an `ImpactProblem` and
         returns the momenta after.
     collisions : bool
         False: bodies pass through each other.
     record_every : int
-        Steps between recorded rows; start and end are always recorded, and a number of at least
-        duration / h leaves these two.
+        Steps between recorded rows; start and end are always recorded, and nothing else if it is
+        at least duration / h.
     record_contacts : bool
-        Whether to keep every impulse between bodies, as `contacts` of each run `batch[i]`.
+        Whether to record every impulse between bodies, as `contacts` of each run `batch[i]`.
     states : sequence of State, optional
         The starts in place of `q` and `v`, all at the same time.
     threads : int, optional
-        How many; None: as many as the machine runs at once.
+        Number of threads; None: as many as the machine runs at once.
     on_failure : OnFailure or str
-        `OnFailure.go_on`: a run whose step cannot be made, or whose start overlaps, is not
-        `complete`, its message is in `failures`, and a RuntimeWarning tells of it.
-        `OnFailure.stop`: its error is raised; where several runs fail, that of the first of them.
+        `OnFailure.go_on`: a run with a failed step or overlapping bodies at its start is not
+        `complete`; `failures` has its message, and a RuntimeWarning reports it.
+        `OnFailure.stop`: its error is raised; if several runs fail, that of the lowest index.
     progress : bool or callable, optional
         None: a progress bar on a terminal when the batch takes longer than 2 s; True, False:
-        always, never; a callable is given the part done in [0, 1] about ten times a second.
+        always, never; a callable takes the completed fraction in [0, 1] about ten times a second.
     **bounds
         `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`, `max_impulses`, `rest`,
         `simultaneous`, `strict`: as in `StepOptions`.
@@ -92,19 +92,19 @@ def simulate_batch(
     Returns
     -------
     BatchTrajectory
-        Ctrl-C ends the batch early; it then holds what is done so far, and runs that had not ended
-        are not `complete`.
+        Ctrl-C ends the batch early; it then has the rows computed so far, and unfinished runs are
+        not `complete`.
 
     Raises
     ------
     ModelError
-        Before anything runs, on starts that do not fit the model or are not finite, none at all,
+        Before anything runs, on starts that do not fit the model or are NaN or infinite, no starts,
         a duration or h that is not positive, a duration that is no whole number of steps,
-        threads < 1, more than 16 GB of rows; a run whose `contacts` would take more than its share
-        of what rows leave of these fails. With `OnFailure.stop` also on a start that overlaps.
+        threads < 1, more than 16 GB of rows. A run fails if its `contacts` take more than its share
+        of the memory left. With `OnFailure.stop` also on overlapping bodies at a start.
     StepError, JammedError
         With `OnFailure.stop`, as `simulate`, with "run <index>: " before the message. The rows
-        before it are `error.trajectory`.
+        computed so far are `error.trajectory`.
     """
     check_types(model, bounds, "simulate_batch")
     if threads is not None and threads < 1:

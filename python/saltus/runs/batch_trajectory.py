@@ -21,7 +21,7 @@ class BatchTrajectory:
     """Recorded motions from many starts, made by `simulate_batch`.
 
     `len(batch)` is the number of runs B; `batch[i]` is one of them as a `Trajectory`, with its
-    impacts and impulses, and iterating gives one after the other. Rows that a run did not reach,
+    impacts and impulses, and iterating gives one after another. Rows that a run did not reach,
     because it failed or was stopped, are NaN in the arrays here and absent from `batch[i]`.
 
     Attributes
@@ -47,7 +47,7 @@ class BatchTrajectory:
     complete : numpy.ndarray of bool, shape (B,)
         False for runs that failed, or were stopped before their end.
     failures : dict of int to str
-        What the error of each run that failed says, by its index.
+        The error message of each failed run, by its index.
     """
 
     model: Model

@@ -1,4 +1,4 @@
-"""How far a run has come, told while it goes: a bar, or a function of the caller's."""
+"""The progress of a run: a bar, or a function of the caller."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BAR_FORMAT = "{l_bar}{bar}| {n:.2f}/{total:.2f} {unit} [{elapsed}<{remaining}]"
 def progress_bar(
     progress: bool | Progress | None, total: float, unit: str
 ) -> AbstractContextManager[Progress | None]:
-    """Give, within `with`, the function that the compiled part is to call with the part done."""
+    """Give, within `with`, the function that takes the completed fraction."""
     if progress is False:
         return nullcontext()
     if callable(progress):

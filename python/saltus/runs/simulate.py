@@ -70,14 +70,14 @@ def simulate(
     ----------
     model : Model
     q : array_like, shape (n_q,), or mapping of names to values, optional
-        [rad | m] coordinates at the start; those not named are as in `Model.neutral`. The name of
-        a free or ball joint takes a Pose, a quaternion, a SciPy Rotation: see `Model`.
+        [rad | m] coordinates at the start; those not named are as in `Model.neutral`. A free or
+        ball joint takes a Pose, a quaternion, or a SciPy Rotation by its name: see `Model`.
     v : array_like, shape (n_v,), or mapping of names to values, optional
         [rad/s | m/s] velocities at the start; those not named are 0.
     duration : float
         [s] a whole number of steps.
     h : float
-        [s] step.
+        [s] time step.
     law : ImpactLaw, str or callable
         Which energy impacts conserve, see `ImpactLaw`. A callable is given an `ImpactProblem` and
         returns the momenta after.
@@ -86,13 +86,13 @@ def simulate(
     record_every : int
         Steps between recorded rows.
     record_contacts : bool
-        Whether to keep every impulse between bodies, of all steps, as `contacts` of the run: where
-        it acts, along which normal, how strong.
+        Whether to record every impulse between bodies, of all steps, as `contacts` of the run:
+        its point, its normal and its size.
     state : State, optional
-        The start in place of `q` and `v`, for instance `run.state(-1)` to go on with a run.
+        The start in place of `q` and `v`, for instance `run.state(-1)` to continue a run.
     progress : bool or callable, optional
         None: a progress bar on a terminal when the run takes longer than 2 s; True, False: always,
-        never; a callable is given the part done in [0, 1] about ten times a second.
+        never; a callable takes the completed fraction in [0, 1] about ten times a second.
     **bounds
         `order`, `certify`, `max_iterations`, `max_impacts`, `max_halvings`,
         `max_impulses`, `rest`, `simultaneous`, `strict`: as in `StepOptions`.
@@ -100,23 +100,24 @@ def simulate(
     Returns
     -------
     Trajectory
-        Ctrl-C ends the run early; the trajectory then holds what is done so far and is not
+        Ctrl-C ends the run early; the trajectory then has the rows computed so far and is not
         `complete`.
 
     Raises
     ------
     ModelError
-        On a start that does not fit the model or overlaps, a duration or h that is not positive,
-        a duration that is no whole number of steps, more than 16 GB of rows and contacts.
+        On a start that does not fit the model or has overlapping bodies, a duration or h that is
+        not positive, a duration that is no whole number of steps, more than 16 GB of rows and
+        contacts.
     StepError
-        When a step does not converge or its impacts do not end.
+        If a step does not converge or its impacts do not end.
     JammedError
-        When the impulses at one instant do not end.
+        If the impulses at one instant do not end.
 
     Notes
     -----
-    An exception that ends a run, also one that `law` or `progress` raises, has the rows before it
-    as `error.trajectory`, a `Trajectory` that is not `complete`.
+    An exception that ends a run, also one that `law` or `progress` raises, has the rows computed so
+    far as `error.trajectory`, a `Trajectory` that is not `complete`.
     """
     check_types(model, bounds, "simulate")
     if state is None:

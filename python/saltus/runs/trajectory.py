@@ -1,4 +1,4 @@
-"""A recorded motion as the user has it: what was recorded, to be saved and drawn."""
+"""A recorded motion as the user has it, with methods that save and draw it."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class Trajectory(Recording):
     Attributes
     ----------
     model : Model or None
-        None where it was loaded from a file that could not hold the model.
+        None if it was loaded from a file without the model.
     options : StepOptions
     coordinate_names : tuple of str
         Of the columns of `q`.
     velocity_names : tuple of str
-        Of the columns of `v` and `p`; those of `q`, but for free and ball joints.
+        Of the columns of `v` and `p`; those of `q`, except for free and ball joints.
     pair_names : tuple of str
-        Of all pairs; where the model has more than `LISTED_PAIRS`, of those that the arrays name.
+        Of all pairs; if the model has more than `LISTED_PAIRS`, of those in the arrays.
     t : numpy.ndarray, shape (rows,)
         [s]
     q : numpy.ndarray, shape (rows, n_q)
@@ -39,16 +39,17 @@ class Trajectory(Recording):
     kinetic, potential, total : numpy.ndarray, shape (rows,)
         [J]
     shadow : numpy.ndarray, shape (rows,)
-        [J] H - h^2 kappa / 24, which a fixed step conserves to O(h^4): a monitor of health.
+        [J] H - h^2 kappa / 24, the modified Hamiltonian, which a fixed step conserves to O(h^4). If
+        it drifts, the run is not reliable.
     impacts : numpy.ndarray
         Structured, in order of time: "t" [s], "first" and "count" (its rows in `impulses`),
-        "contacts" (pairs that touched), "law" (an `ImpactLaw`), "fallback".
+        "contacts" (closed contacts), "law" (an `ImpactLaw`), "fallback".
     impulses : numpy.ndarray
-        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s]
-        along the normal, and in the world, three numbers each: "tangential" [N s] (friction on the
-        pair's first shape), "point" [m] (where the two touch, halfway between their nearest
-        points), "normal" (unit, from the pair's second shape to the first). Point and normal are
-        NaN in runs from files of before they were kept.
+        Structured: "impact" (row of `impacts`), "pair" (index in `pair_names`), "lambda" [N s] (the
+        normal impulse), and in the world frame, three numbers each: "tangential" [N s] (the
+        friction impulse on the pair's first shape), "point" [m] (halfway between the nearest points
+        of the two shapes), "normal" (unit, from the pair's second shape to the first). Point and
+        normal are NaN in runs from older files without them.
     contacts : numpy.ndarray
         Structured, with `record_contacts` alone: every impulse that acted between bodies, those of
         impacts and the sums that held pairs closed over each step (`ContactImpulse`). "row" (the
@@ -56,7 +57,7 @@ class Trajectory(Recording):
         the step), "impact" (row of `impacts`; -1: what held a pair closed), and "pair", "lambda",
         "tangential", "point", "normal" as in `impulses`. ModelError where they were not recorded.
     settlings : numpy.ndarray
-        Structured: "t" [s] when a pair that bounced ever lower came to rest, "pair".
+        Structured: "t" [s] when infinitely many ever lower bounces of a pair end, "pair".
     fallbacks : numpy.ndarray
         Structured, empty as a rule: what could not be made as it should. "t" [s] where it starts,
         "tau" [s] its longest arc, "rung": "halved", a step by shorter arcs, as exact as with a
@@ -64,13 +65,13 @@ class Trajectory(Recording):
         "stopped", an arc that bodies in contact stand still in. Of the last two "energy" [J] is
         what the arc changed of it, and "pair" (index, -1) took the largest impulse.
     certificates : tuple of str
-        Of each impact whether its outcome is unique; empty unless `certify` asked for it.
+        For each impact whether its outcome is unique; empty without `certify`.
     iterations : int
         Newton iterations in all.
     residual : float
-        [largest momentum] the worst of any step.
+        [largest momentum] the largest of all steps.
     complete : bool
-        False where the run was stopped or failed before its end.
+        False if the run was stopped or failed before its end.
     energy_error : float
         Greatest |H(t) - H(0)| over the greatest kinetic energy of the run.
     """
@@ -78,8 +79,7 @@ class Trajectory(Recording):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to an HDF5 file, with the model's URDF text in it.
 
-        A model that was built in code has no text; the file says so, and `load` then needs the
-        model to be given again.
+        A model that was built in code has no text; `load` then needs the model again.
 
         Parameters
         ----------
@@ -93,7 +93,7 @@ class Trajectory(Recording):
         Parameters
         ----------
         path : str or os.PathLike, optional
-            Where the picture is written; its ending says in which format.
+            File for the picture; its suffix selects the format.
         **options
             As in `saltus.plots.plot_cradle` or `saltus.plots.plot_run`.
 
@@ -111,7 +111,7 @@ class Trajectory(Recording):
         Parameters
         ----------
         path : str or os.PathLike, optional
-            Where the picture is written; its ending says in which format.
+            File for the picture; its suffix selects the format.
         index : int, optional
             The impact to draw as a cascade; else all of them over time.
 
@@ -129,16 +129,16 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     ----------
     path : str or os.PathLike
     model : Model, optional
-        The model of the run, for files that do not hold it because it was built in code.
+        The model of the run, for files without it because it was built in code.
 
     Returns
     -------
     Trajectory
-        Its `model` is None where the file holds none and none is given.
+        Its `model` is None if neither the file nor the argument gives one.
 
     Raises
     ------
     ModelError
-        On a file that holds no trajectory, and on a model that is not that of the run.
+        On a file without a trajectory, and on a model that is not that of the run.
     """
     return files.read(Trajectory, path, model)

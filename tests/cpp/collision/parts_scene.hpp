@@ -12,7 +12,7 @@ namespace saltus::testing_scene {
 inline Convex random_gem(Random& random) {
   std::vector<Vec3> points;
   for (int k = 4 + random.index(4); k > 0; --k) points.push_back(0.5 * random.direction());
-  return {std::make_shared<const Hull>(convex_hull(points))};
+  return test::hull_of(points);
 }
 
 /// As random_shape; "gem" is a convex one of a few corners, "prism" a flat one of six sides.
@@ -25,7 +25,7 @@ inline Shape part_shape(const std::string& kind, Random& random) {
     points.emplace_back(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0.2);
     points.emplace_back(0.4 * std::cos(angle), 0.4 * std::sin(angle), -0.2);
   }
-  return Convex{std::make_shared<const Hull>(convex_hull(points))};
+  return test::hull_of(points);
 }
 
 inline const std::vector<std::pair<std::string, std::string>>& kinds_with_parts() {

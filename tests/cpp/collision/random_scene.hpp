@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/hulls.hpp"
 #include "saltus/collision/contact.hpp"
 #include "saltus/collision/pair_table.hpp"
 #include "saltus/tree/coordinates.hpp"
@@ -50,7 +51,7 @@ inline Convex random_convex(const Vec3& radii, Random& random) {
     points.push_back(radii.cwiseProduct(random.direction()) *
                      (k % 2 == 0 ? random.uniform(0, 1) : 1));
   }
-  return {std::make_shared<const Hull>(convex_hull(points))};
+  return test::hull_of(points);
 }
 
 /// A shape of the kind that `shape_name` calls so, with sizes of 0.1 to 0.6.

@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // The squares of such offsets have few digits or none.
 TEST(NearlyDegenerate, TinyOffsetsAreSound) {
-  const Convex tetrahedron{std::make_shared<const Hull>(convex_hull({O, X, Y, Z}))};
+  const Convex tetrahedron = test::hull_of({O, X, Y, Z});
   const std::vector<Shape> shapes = {Sphere{1},
                                      Capsule{1, 1},
                                      cube,

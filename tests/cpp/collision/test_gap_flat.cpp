@@ -6,14 +6,11 @@
 namespace saltus {
 namespace {
 
+using test::hull_of;
 using testing_scene::eps;
 using testing_scene::outside;
 using testing_scene::Placed;
 using testing_scene::Random;
-
-Convex hull_of(const std::vector<Vec3>& points) {
-  return {std::make_shared<const Hull>(convex_hull(points))};
-}
 
 Convex prism(int sides, double radius, double half) {
   std::vector<Vec3> points;

@@ -7,6 +7,8 @@
 #include <random>
 #include <set>
 
+#include "kit/ask.hpp"
+#include "kit/hulls.hpp"
 #include "saltus/collision/hull.hpp"
 #include "saltus/error.hpp"
 
@@ -108,15 +110,7 @@ void expect_counts(const Hull& hull, std::size_t vertices, std::size_t faces, st
   EXPECT_EQ(hull.edges.size(), edges);
 }
 
-Points box(const Vec3& half) {
-  Points points;
-  for (const double x : {-1, 1}) {
-    for (const double y : {-1, 1}) {
-      for (const double z : {-1, 1}) points.push_back(half.cwiseProduct(Vec3(x, y, z)));
-    }
-  }
-  return points;
-}
+Points box(const Vec3& half) { return test::corners(half); }
 
 /// A grid of the solid box: corners, points on edges and faces, points inside.
 Points filled_box(const Vec3& half, int cells) {
@@ -166,14 +160,7 @@ Points random_cloud(std::mt19937& random, int count, const Vec3& half) {
 }
 
 void expect_error(const Points& points, const std::vector<std::string>& parts) {
-  try {
-    convex_hull(points, "the stone");
-    FAIL() << "no error";
-  } catch (const ModelError& error) {
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
-  }
+  test::expect_error([&] { convex_hull(points, "the stone"); }, parts);
 }
 
 TEST(Hull, OfATetrahedron) {

@@ -82,7 +82,7 @@ TEST(PairTable, CountsTheParts) {
       points.emplace_back(std::cos(angle), std::sin(angle), k % 2);
     }
     if (sides == 2) points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    return Convex{std::make_shared<const Hull>(convex_hull(points))};
+    return test::hull_of(points);
   };
   const Shape rod = Capsule{1, 1}, box = Box{Vec3::Ones()}, can = Cylinder{1, 1};
   const Shape gem = hull(2), prism = hull(6), drum = hull(12), floor = HalfSpace{};

@@ -1,7 +1,7 @@
 // Everything that an arc is made of, in lanes, for tests.
 #pragma once
 
-#include "ball_trees.hpp"
+#include "kit/random_trees.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus::test {

@@ -1,8 +1,8 @@
 // The two passes in one call, for tests.
 #pragma once
 
+#include "kit/random_trees.hpp"
 #include "plain/composite.hpp"
-#include "random_models.hpp"
 
 namespace saltus::test {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "kit/random_trees.hpp"
 #include "numeric.hpp"
-#include "random_models.hpp"
 #include "saltus/lagrangian/partials.hpp"
 
 namespace saltus {

@@ -14,6 +14,7 @@ struct RandomContacts {
   double unlike = 0;    ///< masses are 10^-unlike to 10^unlike [kg]
   double friction = 0;  ///< at most
   bool jammed = false;  ///< every second contact faces the one before it
+  bool open = false;    ///< some velocity opens all gaps
 };
 
 struct ContactsAtOnce {
@@ -83,6 +84,27 @@ inline VecX velocity_after(const ContactsAtOnce& c, const std::vector<Vec3>& p) 
     force += c.R.middleRows(3 * static_cast<Eigen::Index>(i), 3).transpose() * p[i];
   }
   return c.v + c.inverse * force;
+}
+
+/// Contacts without friction: M, the normals N, and the velocity before.
+struct NormalContacts {
+  MatX M, N;
+  VecX v;
+  MatX G() const { return N * M.inverse() * N.transpose(); }
+  double energy(const VecX& at) const { return 0.5 * at.dot(M * at); }
+};
+
+inline NormalContacts random_normals(const RandomContacts& of, std::mt19937& random) {
+  const ContactsAtOnce c = random_contacts(of, random);
+  NormalContacts out{c.inverse.diagonal().cwiseInverse().asDiagonal(), {}, c.v};
+  out.N = c.R(Eigen::seqN(0, of.contacts, 3), Eigen::all);
+  if (of.open) {
+    const VecX w = VecX::NullaryExpr(c.v.size(), [&] { return random_unit(random)[0]; });
+    for (int i = 0; i < of.contacts; ++i) {
+      if (out.N.row(i).dot(w) < 0) out.N.row(i) *= -1;
+    }
+  }
+  return out;
 }
 
 }  // namespace saltus

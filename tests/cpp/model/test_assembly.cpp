@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "model/builders.hpp"
+#include "kit/builders.hpp"
 #include "numeric.hpp"
 
 namespace saltus {

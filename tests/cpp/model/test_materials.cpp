@@ -1,31 +1,18 @@
 // What shapes are made of, and what happens where they meet.
 #include <gtest/gtest.h>
 
-#include "model/builders.hpp"
+#include "kit/ask.hpp"
+#include "kit/builders.hpp"
 
 namespace saltus {
 namespace {
 
+using test::between;
+using test::message_of;
 using test::two_balls;
 
 /// Balls a and b, and a floor.
 ModelBuilder scene() { return two_balls().add_half_space("floor", Vec3::UnitZ(), -5); }
-
-ContactProperties between(const Model& model, const std::string& name) {
-  for (int k = 0; k < model->pairs.size(); ++k) {
-    if (model.pair_name(k) == name) return model.contact_properties(k);
-  }
-  throw ModelError("no pair " + name);
-}
-
-std::string error_of(const ModelBuilder& builder) {
-  try {
-    builder.build();
-  } catch (const ModelError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Materials, ContactsAreElasticAndSmoothUnlessSaidOtherwise) {
   EXPECT_EQ(between(scene().build(), "a ~ b"), (ContactProperties{1, 0}));
@@ -50,7 +37,8 @@ TEST(Materials, TheLastWordHoldsInAnyOrder) {
   builder.set_contact("steel", "steel", {0.3, 0});
   EXPECT_EQ(between(builder.build(), "a ~ b").restitution, 0.2);
   builder.set_material("b", "steel").set_contact("steel", "steel", {0.4, 0});
-  const std::string error = error_of(builder);  // nothing is of wood now, and a contact names it
+  const std::string error =
+      message_of([&] { builder.build(); });  // nothing is of wood now, and a contact names it
   EXPECT_NE(error.find("\"wood\", which no link has"), std::string::npos) << error;
 }
 
@@ -61,9 +49,13 @@ TEST(Materials, ErrorsNameCulpritValueAndAlternatives) {
   EXPECT_THROW(scene().set_contact("x", "y", {NAN, 0}), ModelError);
   EXPECT_THROW(scene().set_contact("x", "y", {1, INFINITY}), ModelError);
   EXPECT_THROW(scene().set_material("a", ""), ModelError);
-  EXPECT_EQ(error_of(scene().set_material("a", "steel").set_contact("steel", "stel", {})),
+  EXPECT_EQ(message_of([&] {
+              scene().set_material("a", "steel").set_contact("steel", "stel", {}).build();
+            }),
             "a contact names material \"stel\", which no link has; materials are steel");
-  EXPECT_NE(error_of(scene().set_material("c", "steel")).find("\"c\", which does not exist"),
+  EXPECT_NE(message_of([&] {
+              scene().set_material("c", "steel").build();
+            }).find("\"c\", which does not exist"),
             std::string::npos);
 }
 

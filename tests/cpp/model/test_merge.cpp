@@ -4,29 +4,14 @@
 #include <algorithm>
 #include <functional>
 
-#include "model/builders.hpp"
+#include "kit/ask.hpp"
+#include "kit/builders.hpp"
 
 namespace saltus {
 namespace {
 
-ContactProperties between(const Model& model, const std::string& name) {
-  for (int k = 0; k < model->pairs.size(); ++k) {
-    if (model.pair_name(k) == name) return model.contact_properties(k);
-  }
-  throw ModelError("no pair " + name);
-}
-
-void expect_error(const std::function<void()>& action, const std::vector<std::string>& parts) {
-  try {
-    action();
-    FAIL() << "accepted";
-  } catch (const ModelError& error) {
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << "no '" << part << "' in: " << error.what();
-    }
-  }
-}
+using test::between;
+using test::expect_error;
 
 /// base - swing - arm - follow - hand, of rubber; hand follows arm, and is in a group.
 ModelBuilder robot() {

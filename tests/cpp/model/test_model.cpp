@@ -6,7 +6,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "model/builders.hpp"
+#include "kit/ask.hpp"
+#include "kit/builders.hpp"
 #include "numeric.hpp"
 
 namespace saltus {
@@ -14,21 +15,11 @@ namespace {
 
 using test::arm;
 using test::joint;
+using test::message_of;
 using test::relative_error;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
-
-/// What the ModelError says that `act` throws.
-template <class Act>
-std::string refusal(const Act& act) {
-  try {
-    act();
-  } catch (const ModelError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(Model, IsConstAndItsCopiesShare) {
   const Model model = arm().build();
@@ -96,20 +87,20 @@ TEST(State, FromNamesAndFromArrays) {
 
 TEST(State, MistakesAreNamed) {
   const Model model = arm().build();
-  EXPECT_EQ(refusal([&] { model.state({{"elbw", 0.3}}); }),
+  EXPECT_EQ(message_of([&] { model.state({{"elbw", 0.3}}); }),
             "no coordinate \"elbw\"; there are shoulder, elbow");
-  EXPECT_EQ(refusal([&] { model.state({}, {{"wrist", 0.3}}); }),
+  EXPECT_EQ(message_of([&] { model.state({}, {{"wrist", 0.3}}); }),
             "no velocity \"wrist\"; there are shoulder, elbow");
-  EXPECT_EQ(refusal([&] { model.state({{"elbow", nan}}); }),
+  EXPECT_EQ(message_of([&] { model.state({{"elbow", nan}}); }),
             "coordinate \"elbow\" = nan is not finite");
-  EXPECT_EQ(refusal([&] { model.state({}, {{"shoulder", inf}}); }),
+  EXPECT_EQ(message_of([&] { model.state({}, {{"shoulder", inf}}); }),
             "velocity \"shoulder\" = inf is not finite");
-  EXPECT_EQ(refusal([&] { model.state({}, {}, nan); }), "t is not finite");
-  EXPECT_EQ(refusal([&] { model.state(Eigen::Vector2d(0, nan), VecX::Zero(2)); }),
+  EXPECT_EQ(message_of([&] { model.state({}, {}, nan); }), "t is not finite");
+  EXPECT_EQ(message_of([&] { model.state(Eigen::Vector2d(0, nan), VecX::Zero(2)); }),
             "q[1] = nan is not finite");
-  EXPECT_EQ(refusal([&] { model.state(VecX::Zero(3), VecX::Zero(2)); }),
+  EXPECT_EQ(message_of([&] { model.state(VecX::Zero(3), VecX::Zero(2)); }),
             "q has 3 entries; the model has 2 coordinates");
-  EXPECT_EQ(refusal([&] { model.state(VecX::Zero(2), VecX::Zero(1)); }),
+  EXPECT_EQ(message_of([&] { model.state(VecX::Zero(2), VecX::Zero(1)); }),
             "v has 1 entry; the model has 2 velocities");
 }
 
@@ -120,20 +111,20 @@ TEST(Model, ChecksEveryArray) {
   for (const VecX& x : {shorter, bad}) {
     const std::string problem =
         x.size() == 1 ? " has 1 entry; the model has 2 coordinates" : "[1] = -inf is not finite";
-    EXPECT_EQ(refusal([&] { model.lagrangian(x, good); }), "q" + problem);
+    EXPECT_EQ(message_of([&] { model.lagrangian(x, good); }), "q" + problem);
     const std::string rates =
         x.size() == 1 ? " has 1 entry; the model has 2 velocities" : "[1] = -inf is not finite";
-    EXPECT_EQ(refusal([&] { model.lagrangian(good, x); }), "v" + rates);
-    EXPECT_EQ(refusal([&] { model.mass_matrix(x); }), "q" + problem);
-    EXPECT_EQ(refusal([&] { model.gaps(x); }), "q" + problem);
-    EXPECT_EQ(refusal([&] { model.potential_energy(x); }), "q" + problem);
-    EXPECT_EQ(refusal([&] { model.X_WL(x, 0); }), "q" + problem);
-    EXPECT_EQ(refusal([&] { model.velocity({0, x, good}); }), "state.q" + problem);
-    EXPECT_EQ(refusal([&] { model.velocity({0, good, x}); }), "state.p" + rates);
-    EXPECT_EQ(refusal([&] { model.kinetic_energy({0, x, good}); }), "state.q" + problem);
+    EXPECT_EQ(message_of([&] { model.lagrangian(good, x); }), "v" + rates);
+    EXPECT_EQ(message_of([&] { model.mass_matrix(x); }), "q" + problem);
+    EXPECT_EQ(message_of([&] { model.gaps(x); }), "q" + problem);
+    EXPECT_EQ(message_of([&] { model.potential_energy(x); }), "q" + problem);
+    EXPECT_EQ(message_of([&] { model.X_WL(x, 0); }), "q" + problem);
+    EXPECT_EQ(message_of([&] { model.velocity({0, x, good}); }), "state.q" + problem);
+    EXPECT_EQ(message_of([&] { model.velocity({0, good, x}); }), "state.p" + rates);
+    EXPECT_EQ(message_of([&] { model.kinetic_energy({0, x, good}); }), "state.q" + problem);
   }
-  EXPECT_EQ(refusal([&] { check_vector(good, 2, "q"); }), "accepted");
-  EXPECT_EQ(refusal([&] { check_vector(VecX(), 0, "q"); }), "accepted");
+  EXPECT_NO_THROW(check_vector(good, 2, "q"));
+  EXPECT_NO_THROW(check_vector(VecX(), 0, "q"));
 }
 
 TEST(Model, FindsByName) {
@@ -141,7 +132,7 @@ TEST(Model, FindsByName) {
   EXPECT_EQ(model.coordinate("elbow"), 1);
   EXPECT_EQ(model.link("world"), 0);
   EXPECT_EQ(model.link("lower"), 2);
-  EXPECT_EQ(refusal([&] { model.link("lowr"); }),
+  EXPECT_EQ(message_of([&] { model.link("lowr"); }),
             "no link \"lowr\"; there are world, upper, lower");
   try {
     model.coordinate("x");
@@ -149,7 +140,7 @@ TEST(Model, FindsByName) {
     EXPECT_EQ(error.element, "coordinate");
     EXPECT_EQ(error.name, "x");
   }
-  EXPECT_EQ(refusal([] { ModelBuilder("empty").build().coordinate("x"); }),
+  EXPECT_EQ(message_of([] { ModelBuilder("empty").build().coordinate("x"); }),
             "no coordinate \"x\"; there are none");
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "model/builders.hpp"
+#include "kit/builders.hpp"
 
 namespace saltus {
 namespace {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kit/hulls.hpp"
 #include "saltus/error.hpp"
 
 namespace saltus {
@@ -16,6 +17,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Half axes along x and y of the ellipse that a plane z = const cuts out.
+using test::corners;
+using test::hull_of;
 using Slice = std::function<Eigen::Vector2d(double)>;
 
 struct Sum {
@@ -76,20 +79,6 @@ void expect_sum(const Shape& shape, const Sum& sum) {
   EXPECT_NEAR(volume(shape), sum.volume, 1e-6 * sum.volume);
   const Mat3 I = 3 / sum.volume * sum.I.asDiagonal().toDenseMatrix();
   expect_near(solid_inertia(3, shape), {3, Vec3::Zero(), I}, 1e-6);
-}
-
-Convex hull_of(const std::vector<Vec3>& points) {
-  return {std::make_shared<const Hull>(convex_hull(points))};
-}
-
-std::vector<Vec3> corners(const Vec3& half, const Pose& X = {}) {
-  std::vector<Vec3> points;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      for (const double z : {-1.0, 1.0}) points.push_back(X * Vec3(x, y, z).cwiseProduct(half));
-    }
-  }
-  return points;
 }
 
 TEST(Solids, AreTheSumsOfTheirSlices) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "model/builders.hpp"
+#include "kit/builders.hpp"
 
 namespace saltus {
 namespace {

@@ -9,12 +9,14 @@
 #include <limits>
 #include <thread>
 
-#include "scenes.hpp"
+#include "kit/ask.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
 
 using scenes::cradle;
+using test::message_of;
 
 template <class Array>
 bool same_bits(const Array& a, const Array& b) {  // also of NaN
@@ -202,16 +204,6 @@ TEST(Batch, StartsFromArraysAreThoseOfTheModel) {
   const std::vector<State> all = states(model, q, v, 0.5);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[1], model.state(VecX(q.row(1)), VecX(v.row(1)), 0.5));
-}
-
-template <class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const ModelError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Batch, BadArraysAreNamed) {

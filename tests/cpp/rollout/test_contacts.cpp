@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
+#include "kit/scenes.hpp"
 #include "saltus/rollout/batch.hpp"
-#include "scenes.hpp"
 
 namespace saltus {
 namespace {

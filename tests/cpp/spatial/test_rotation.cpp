@@ -5,8 +5,8 @@
 
 #include <numbers>
 
+#include "kit/random_trees.hpp"
 #include "numeric.hpp"
-#include "random_models.hpp"
 
 namespace saltus {
 namespace {

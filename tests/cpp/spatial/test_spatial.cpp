@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "kit/random_trees.hpp"
 #include "numeric.hpp"
-#include "random_models.hpp"
 #include "saltus/spatial/spatial.hpp"
 
 namespace saltus {

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "ball_trees.hpp"
+#include "kit/random_trees.hpp"
 #include "numeric.hpp"
 
 namespace saltus {

@@ -1,9 +1,9 @@
 // Poses, screws and twists against products of 4x4 matrices and their numeric derivatives.
 #include <gtest/gtest.h>
 
+#include "kit/random_trees.hpp"
 #include "naive.hpp"
 #include "numeric.hpp"
-#include "random_models.hpp"
 #include "saltus/tree/kinematics.hpp"
 
 namespace saltus {

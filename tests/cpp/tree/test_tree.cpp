@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "random_models.hpp"
+#include "kit/random_trees.hpp"
 #include "saltus/tree/kinematics.hpp"
 #include "saltus/tree/tree.hpp"
 

@@ -6,6 +6,8 @@
 namespace saltus {
 namespace {
 
+using test::between;
+
 using namespace test;
 
 /// Two balls that fly, a and b, and a floor.
@@ -14,13 +16,6 @@ std::string balls(const std::string& block) {
   return robot("<link name=\"world\"/>" + ball_link("a", ball) + ball_link("b", ball) +
                joint("ja", "floating", "world", "a") + joint("jb", "floating", "world", "b") +
                "<saltus><half_space name=\"floor\"/>\n" + block + "</saltus>");
-}
-
-ContactProperties between(const Model& model, const std::string& name) {
-  for (int k = 0; k < model->pairs.size(); ++k) {
-    if (model.pair_name(k) == name) return model.contact_properties(k);
-  }
-  throw ModelError("no pair " + name);
 }
 
 TEST(UrdfMaterials, BelongToPairs) {

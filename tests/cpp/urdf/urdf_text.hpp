@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/ask.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 
 namespace saltus::test {
@@ -56,22 +57,6 @@ inline void expect_near(const Mat3& value, const Mat3& expected, double toleranc
 inline void expect_near(const Vec3& value, const Vec3& expected, double tolerance = 1e-15) {
   EXPECT_LE((value - expected).cwiseAbs().maxCoeff(), tolerance)
       << value.transpose() << " instead of " << expected.transpose();
-}
-
-/// The message of the ModelError that this throws; "" (and a failure) if it throws none.
-template <class F>
-std::string message_of(const F& f) {
-  try {
-    f();
-  } catch (const ModelError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no ModelError";
-  return "";
-}
-
-inline void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in: " << text;
 }
 
 /// One warning of the model contains all parts.

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "kit/scenes.hpp"
 #include "numeric.hpp"
-#include "scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -126,10 +126,8 @@ TEST(BallImpacts, EnergyStaysOverManyImpacts) {
 // about the vertical through its centre.
 TEST(BallImpacts, ABouncingBoxKeepsWhatAFloorCannotChange) {
   ModelBuilder b("box");
-  b.add_link({"box", solid_box(1.0, Vec3(0.1, 0.2, 0.3))});
-  b.add_joint({.name = "free", .type = JointType::floating, .parent = "world", .child = "box"});
-  b.add_shape("box", Box{Vec3(0.1, 0.2, 0.3)}).add_half_space("floor", Vec3::UnitZ());
-  const Model model = b.build();
+  b.add_body({.name = "box", .shape = Box{Vec3(0.1, 0.2, 0.3)}, .mass = 1});
+  const Model model = b.add_half_space("floor", Vec3::UnitZ()).build();
   VecX q = model.neutral(), v(6);
   q[2] = 1;
   q.tail<4>() = Quaternion(rotation_from_rpy(0.3, 0.5, 0.2)).coeffs();

@@ -2,10 +2,12 @@
 // edges that cross there, or to what lies beside, and nobody feels it.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
+
+using scenes::energy;
 
 constexpr double still = 1e-12;  ///< rounding is 1e-17 a step, contacts are exact to 1e-13
 
@@ -57,10 +59,6 @@ Model slide(const Scene& s) {
     b.add_shape("body", Box{half}, {turned, Vec3::Zero()});
   }
   return b.build();
-}
-
-double energy(const Model& model, const State& state) {
-  return model.kinetic_energy(state) + model.potential_energy(state.q);
 }
 
 struct Slid {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kit/contact_problems.hpp"
 #include "saltus/error.hpp"
 #include "saltus/variational/certificate.hpp"
-#include "variational/contact_problems.hpp"
 
 namespace saltus {
 namespace {

@@ -1,10 +1,10 @@
 // Whatever the contacts: an impact ends open, keeps its energy and pushes only, or the bodies jam.
 #include <gtest/gtest.h>
 
+#include "kit/contact_problems.hpp"
 #include "saltus/error.hpp"
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/certificate.hpp"
-#include "variational/contact_problems.hpp"
 
 namespace saltus {
 namespace {
@@ -38,6 +38,7 @@ Problem random_problem(int trial, std::mt19937& random) {
     default:
       break;
   }
+  p.interior = classify_impact(p.M, p.N).interior;
   return p;
 }
 

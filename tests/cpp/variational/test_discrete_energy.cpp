@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {

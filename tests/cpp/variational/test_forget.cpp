@@ -2,7 +2,7 @@
 // impacts, contacts that rest, and steps that failed.
 #include <gtest/gtest.h>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {

@@ -1,7 +1,7 @@
 // Friction of one contact: what a ball that slides, rolls, spins and bounces is known to do.
 #include <gtest/gtest.h>
 
-#include "friction_scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {

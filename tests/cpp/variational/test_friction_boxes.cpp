@@ -1,7 +1,7 @@
 // Friction of many contacts: boxes on slopes, on each other, and thrown on the floor.
 #include <gtest/gtest.h>
 
-#include "friction_scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -70,20 +70,10 @@ TEST(FrictionBoxes, ABoxThrownOnTheFloorComesToRest) {
 TEST(FrictionBoxes, ABallRollsOnABox) {
   ModelBuilder b("ball on box");
   const Vec3 base(0.3, 0.3, 0.05);
-  b.add_link({"box", solid_box(4, base)});
-  b.add_joint({.name = "box",
-               .type = JointType::floating,
-               .parent = "world",
-               .child = "box",
-               .X_PJ = {Mat3::Identity(), Vec3(0, 0, 0.05)}});
-  b.add_shape("box", Box{base});
-  b.add_link({"ball", solid_sphere(1, 0.1)});
-  b.add_joint({.name = "ball",
-               .type = JointType::floating,
-               .parent = "world",
-               .child = "ball",
-               .X_PJ = {Mat3::Identity(), Vec3(0, 0, 0.2)}});
-  b.add_shape("ball", Sphere{0.1});
+  b.add_body(
+      {.name = "box", .shape = Box{base}, .mass = 4, .X = {Mat3::Identity(), Vec3(0, 0, 0.05)}});
+  b.add_body(
+      {.name = "ball", .shape = Sphere{0.1}, .mass = 1, .X = {Mat3::Identity(), Vec3(0, 0, 0.2)}});
   b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({0, 0.5});
   const Model model = b.build();
   // the ball is pushed along, with a spin about the vertical that friction at a point does not feel

@@ -1,5 +1,5 @@
 // Impacts with friction, in contact space: what no choice of bodies may break.
-#include "contact_problems.hpp"
+#include "kit/contact_problems.hpp"
 #include "saltus/variational/friction.hpp"
 
 namespace saltus {

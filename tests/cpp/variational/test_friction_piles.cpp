@@ -1,7 +1,7 @@
 // Friction of piles: many contacts, of which most follow from others.
 #include <gtest/gtest.h>
 
-#include "friction_scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {

@@ -3,41 +3,23 @@
 
 #include <cmath>
 
-#include "scenes.hpp"
+#include "kit/ask.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
 
 using scenes::discs;
-
-double energy(const Model& model, const State& state) {
-  return model.kinetic_energy(state) + model.potential_energy(state.q);
-}
-
-template <class Error, class Call>
-std::string message_of(Call&& call) {
-  try {
-    call();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no exception";
-}
+using scenes::energy;
+using test::message_of;
 
 // A ball that slides along a floor and sinks towards it ever more slowly: it rebounds, or what is
 // left of its approach is below rest and it stays; energy and path are kept in either case.
 TEST(HardCases, ABallThatGrazesAFloor) {
   ModelBuilder b;
   b.set_gravity(Vec3::Zero());
-  b.add_link({"slide", {}});
-  b.add_joint({.name = "x", .type = JointType::prismatic, .parent = "world", .child = "slide"});
-  b.add_link({"ball", solid_sphere(1, 0.1)});
-  b.add_joint({.name = "z",
-               .type = JointType::prismatic,
-               .parent = "slide",
-               .child = "ball",
-               .axis = Vec3::UnitZ()});
-  b.add_shape("ball", Sphere{0.1}).add_half_space("floor", Vec3::UnitZ());
+  scenes::add_slider(b, 0.1);
+  b.add_half_space("floor", Vec3::UnitZ());
   const Model model = b.build();
   for (int digits = 1; digits <= 14; ++digits) {
     const double speed = std::pow(10, -digits);
@@ -141,7 +123,7 @@ TEST(HardCases, OverlappingStartsAreNamedAndResolved) {
   const Model model = discs({Vec3(0, 0, 0), Vec3(0.9, 0, 0), Vec3(1.7, 0.1, 0)}, {1, 1, 4});
   Stepper stepper(model, {.h = 0.01});
   const State start = model.state();
-  const std::string text = message_of<ModelError>([&] { stepper.advance(start); });
+  const std::string text = message_of([&] { stepper.advance(start); });
   for (const char* part : {"disc_0 ~ disc_1 by 0.1 m", "disc_1 ~ disc_2 by", "resolve_overlap"}) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   }
@@ -159,7 +141,7 @@ TEST(HardCases, AnOverlapWithoutAWayOutIsNamed) {
   scenes::add_bead(b, "x", Vec3::Zero(), Vec3::UnitX(), 1, 0.1);
   b.add_half_space("left", Vec3::UnitX(), -0.09).add_half_space("right", -Vec3::UnitX(), -0.09);
   const Model model = b.build();
-  const std::string text = message_of<ModelError>([&] { resolve_overlap(model, VecX::Zero(1)); });
+  const std::string text = message_of([&] { resolve_overlap(model, VecX::Zero(1)); });
   EXPECT_NE(text.find("x ~ left by 0.01"), std::string::npos) << text;
   EXPECT_THROW(resolve_overlap(model, VecX::Zero(2)), ModelError);
   EXPECT_THROW(resolve_overlap(model, VecX::Constant(1, NAN)), ModelError);

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "kit/contact_problems.hpp"
 #include "saltus/error.hpp"
 #include "saltus/variational/certificate.hpp"
 #include "saltus/variational/outcomes.hpp"
-#include "variational/contact_problems.hpp"
 
 namespace saltus {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -69,15 +69,11 @@ TEST(Laws, CompensatedArcsOfADoublePendulumConvergeFast) {
   ModelBuilder b("double pendulum");
   for (int i = 0; i < 2; ++i) {
     const std::string k = std::to_string(i);
-    BodyInertia bob = solid_sphere(1, 0.05);
-    bob.c_J = Vec3(0, 0, -0.5);
-    b.add_link({"arm_" + k, bob});
-    b.add_joint({.name = "turn_" + k,
-                 .parent = i == 0 ? "world" : "arm_0",
-                 .child = "arm_" + k,
-                 .X_PJ = {Mat3::Identity(), Vec3(0, 0, -0.5 * i)},
-                 .axis = Vec3::UnitY()});
-    b.add_shape("arm_" + k, Sphere{0.05}, {Mat3::Identity(), Vec3(0, 0, -0.5)});
+    scenes::add_pendulum(b, {.link = "arm_" + k,
+                             .joint = "turn_" + k,
+                             .pivot = {Mat3::Identity(), Vec3(0, 0, -0.5 * i)},
+                             .length = 0.5,
+                             .parent = i == 0 ? "world" : "arm_0"});
   }
   b.add_half_space("left", Vec3::UnitX(), -0.2).add_half_space("right", -Vec3::UnitX(), -0.2);
   const Model model = b.build();
@@ -90,10 +86,7 @@ TEST(Laws, CompensatedArcsOfADoublePendulumConvergeFast) {
 
 // One free fall is a parabola, kappa = m g^2: all energies but the paper's differ by constants.
 TEST(Laws, RestitutionTakesTheSameFromEachEnergy) {
-  ModelBuilder b("ball");
-  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, 0.1);
-  b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({0.8, 0});
-  const Model model = b.build();
+  const Model model = scenes::bouncing_ball({0.8, 0});
   for (const ImpactLaw law :
        {ImpactLaw::nodal_energy, ImpactLaw::shadow_energy, ImpactLaw::compensated}) {
     const Trajectory run =
@@ -181,9 +174,7 @@ TEST(CustomLaw, ABadAnswerIsRefusedAndTheStateKept) {
 
 // An elastic contact that the law leaves closing by rounding rests; nothing settles.
 TEST(CustomLaw, WhatIsLeftOfAnApproachIsRest) {
-  ModelBuilder b("ball");
-  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, 0.1);
-  const Model model = b.add_half_space("floor", Vec3::UnitZ()).build();
+  const Model model = scenes::bouncing_ball();
   Stepper stepper(model, with_law([](const ImpactProblem& x) { return (1e-8 * x.p).eval(); }));
   State state = model.state({{"height", 0.2}});
   for (int k = 0; k < 100; ++k) {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "count_allocations.hpp"
-#include "variational/friction_scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -37,10 +37,7 @@ TEST(Stepper, AStepAfterTheFirstAllocatesNothing) {
 }
 
 TEST(Stepper, ABallThatBouncesAndComesToRestAllocatesNothing) {
-  ModelBuilder b("ball");
-  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, 0.1);
-  b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({0.5, 0});
-  const Model model = b.build();
+  const Model model = scenes::bouncing_ball({0.5, 0});
   const auto [allocated, impacts] = count(model, model.state({{"height", 1.1}}), {.h = 0.005});
   EXPECT_EQ(allocated, 0);
   EXPECT_GT(impacts, 2);

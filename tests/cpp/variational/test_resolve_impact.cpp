@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "variational/contact_problems.hpp"
+#include "kit/contact_problems.hpp"
 
 namespace saltus {
 namespace {

@@ -3,11 +3,12 @@
 
 #include <set>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
 
+using scenes::touching;
 using Names = std::set<std::string>;
 
 constexpr double quarter = 0.5 * 3.14159265358979323846;
@@ -47,15 +48,6 @@ struct Rest {
   int sustained = -1;  ///< held contacts in each step, -1 if not always as many
   int impacts = 0;
 };
-
-Names touching(const Model& model, const VecX& q) {
-  Names names;
-  const Gaps gaps = model.gaps(q);
-  for (int k = 0; k < gaps.phi.size(); ++k) {
-    if (std::abs(gaps.phi[k]) < 1e-9) names.insert(gaps.names[static_cast<std::size_t>(k)]);
-  }
-  return names;
-}
 
 Rest rest(const Model& model, const State& start = {}) {
   State state = start.q.size() == 0 ? model.state() : start;

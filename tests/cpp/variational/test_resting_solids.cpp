@@ -3,11 +3,13 @@
 
 #include <set>
 
-#include "scenes.hpp"
+#include "kit/hulls.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
 
+using scenes::touching;
 using Names = std::set<std::string>;
 
 constexpr double quarter = 0.5 * 3.14159265358979323846;
@@ -41,15 +43,6 @@ Model scene(const std::vector<Body>& bodies) {
   return b.build();
 }
 
-Names touching(const Model& model, const VecX& q) {
-  Names names;
-  const Gaps gaps = model.gaps(q);
-  for (int k = 0; k < gaps.phi.size(); ++k) {
-    if (std::abs(gaps.phi[k]) < 1e-9) names.insert(gaps.names[static_cast<std::size_t>(k)]);
-  }
-  return names;
-}
-
 /// Rests for 5 s on the contacts named, and neither drifts nor sinks.
 void expect_rest(const Model& model, const Names& names) {
   State state = model.state();
@@ -66,13 +59,7 @@ void expect_rest(const Model& model, const Names& names) {
   EXPECT_LE((state.q - q).cwiseAbs().maxCoeff(), still);
 }
 
-Convex hull_of(const Vec3& half) {
-  std::vector<Vec3> points;
-  for (int k = 0; k < 8; ++k) {
-    points.push_back(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).cwiseProduct(half));
-  }
-  return {std::make_shared<const Hull>(convex_hull(points))};
-}
+Convex hull_of(const Vec3& half) { return test::hull_of(test::corners(half)); }
 
 const Cylinder can{0.05, 0.1};
 const Vec3 about_can(0.05, 0.05, 0.1);

@@ -3,29 +3,19 @@
 
 #include <cmath>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
 
-constexpr double g = 9.81;
+using scenes::bouncing_ball;
 
-/// A ball of radius r that slides along z above the floor.
-Model ball(double restitution, double r = 0.1) {
-  ModelBuilder b("ball");
-  scenes::add_bead(b, "height", Vec3::Zero(), Vec3::UnitZ(), 1, r);
-  b.add_half_space("floor", Vec3::UnitZ()).set_default_contact({restitution, 0});
-  return b.build();
-}
+constexpr double g = 9.81;
 
 /// A pendulum that leans on a wall: at rest at the angle `lean` from the vertical.
 Model leaning_pendulum(double restitution, double lean) {
   ModelBuilder b("pendulum");
-  BodyInertia bob = solid_sphere(1, 0.05);
-  bob.c_J = Vec3(0, 0, -1);
-  b.add_link({"bob", bob});
-  b.add_joint({.name = "swing", .parent = "world", .child = "bob", .axis = Vec3::UnitY()});
-  b.add_shape("bob", Sphere{0.05}, {Mat3::Identity(), Vec3(0, 0, -1)});
+  scenes::add_pendulum(b, {.link = "bob", .joint = "swing"});
   // the angle grows towards -x; the wall is in the way back to the vertical
   b.add_half_space("wall", Vec3(-1, 0, 0), std::sin(lean) - 0.05);
   b.set_default_contact({restitution, 0});
@@ -44,7 +34,7 @@ double settling_time(const Model& model, State state, double duration, double h)
 
 TEST(Restitution, AReboundHasThatPartOfTheRate) {
   for (const double e : {0.0, 0.3, 0.8, 1.0}) {
-    const Model model = ball(e);
+    const Model model = bouncing_ball({e, 0});
     Stepper stepper(model, {.h = 0.1});
     // without a height to fall from: hits at t = 0
     const State after = stepper.advance(model.state({{"height", 0.1}}, {{"height", -5}}));
@@ -56,7 +46,7 @@ TEST(Restitution, AReboundHasThatPartOfTheRate) {
 
 // A parabola is exact under the midpoint rule, so the sum of the bounces is, for any h.
 TEST(Restitution, ABouncingBallComesToRestWhenItShould) {
-  const Model model = ball(0.5);
+  const Model model = bouncing_ball({0.5, 0});
   const double expected = 3 * std::sqrt(2 / g);
   EXPECT_NEAR(expected, 1.354571, 5e-7);
   for (const double h : {0.04, 0.01, 0.0025}) {
@@ -73,7 +63,7 @@ TEST(Restitution, ABouncingBallComesToRestWhenItShould) {
 
 // Bounces are many where e is near 1: each is an impact until the rest of them fits into a step.
 TEST(Restitution, ALivelyBallComesToRestToo) {
-  const Model model = ball(0.95);
+  const Model model = bouncing_ball({0.95, 0});
   const double expected = std::sqrt(2 / g) * 1.95 / 0.05;
   EXPECT_NEAR(settling_time(model, model.state({{"height", 1.1}}), 20, 0.01), expected, 1e-8);
 }
@@ -90,21 +80,7 @@ TEST(Restitution, TimeOfRestConvergesWithOrderTwo) {
 }
 
 TEST(Restitution, ACradleOfSteelEndsSwingingTogether) {
-  ModelBuilder b("cradle");
-  for (int i = 0; i < 3; ++i) {
-    const std::string k = std::to_string(i);
-    BodyInertia body = solid_sphere(1, 0.05);
-    body.c_J = Vec3(0, 0, -1);
-    b.add_link({"ball_" + k, body});
-    b.add_joint({.name = "swing_" + k,
-                 .parent = "world",
-                 .child = "ball_" + k,
-                 .X_PJ = {Mat3::Identity(), Vec3(0.1 * i, 0, 0)},
-                 .axis = Vec3::UnitY()});
-    b.add_shape("ball_" + k, Sphere{0.05}, {Mat3::Identity(), Vec3(0, 0, -1)});
-  }
-  b.set_default_contact({0.95, 0});
-  const Model model = b.build();
+  const Model model = scenes::cradle({.balls = 3, .sways = false, .contact = {0.95, 0}});
   const Trajectory run = simulate(model, model.state({{"swing_0", 0.3}}), 300, {.h = 0.01});
   const Eigen::Index n = run.t.size();
   double apart = 0, swing = 0;
@@ -122,12 +98,7 @@ TEST(Restitution, ACradleOfSteelEndsSwingingTogether) {
 }
 
 TEST(Restitution, PlasticBallsGoOnTogether) {
-  ModelBuilder b("beads");
-  b.set_gravity(Vec3::Zero()).set_default_contact({0, 0});
-  for (int i = 0; i < 3; ++i) {
-    scenes::add_bead(b, "x_" + std::to_string(i), Vec3(0.2 * i, 0, 0), Vec3::UnitX(), 1, 0.05);
-  }
-  const Model model = b.build();
+  const Model model = scenes::beads_in_line(3, 0.2, {0, 0});
   const Trajectory run = simulate(model, model.state({}, {{"x_0", 3}}), 1, {.h = 0.01});
   const Eigen::Index end = run.t.size() - 1;
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(run.v(end, i), 1, 1e-12);

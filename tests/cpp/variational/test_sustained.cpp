@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenes.hpp"
+#include "kit/scenes.hpp"
 
 namespace saltus {
 namespace {
@@ -11,15 +11,7 @@ namespace {
 /// A ball of radius 0.1 that slides in x and z.
 ModelBuilder ball_in_the_plane() {
   ModelBuilder b;
-  b.add_link({"slide", {}});
-  b.add_joint({.name = "x", .type = JointType::prismatic, .parent = "world", .child = "slide"});
-  b.add_link({"ball", solid_sphere(1, 0.1)});
-  b.add_joint({.name = "z",
-               .type = JointType::prismatic,
-               .parent = "slide",
-               .child = "ball",
-               .axis = Vec3::UnitZ()});
-  b.add_shape("ball", Sphere{0.1});
+  scenes::add_slider(b, 0.1);
   return b;
 }
 
@@ -47,15 +39,7 @@ TEST(Sustained, TenBallsInATroughRestForAMinute) {
   std::map<std::string, double> q;
   for (int i = 0; i < 10; ++i) {
     const std::string k = std::to_string(i);
-    b.add_link({"slide_" + k, {}}).add_link({"ball_" + k, solid_sphere(1, r)});
-    b.add_joint(
-        {.name = "x_" + k, .type = JointType::prismatic, .parent = "world", .child = "slide_" + k});
-    b.add_joint({.name = "z_" + k,
-                 .type = JointType::prismatic,
-                 .parent = "slide_" + k,
-                 .child = "ball_" + k,
-                 .axis = Vec3::UnitZ()});
-    b.add_shape("ball_" + k, Sphere{r});
+    scenes::add_slider(b, r, "_" + k);
     q["x_" + k] = (i % 2 == 0 ? -1 : 1) * r / 2;
     q["z_" + k] = r + i * std::sqrt(3.) * r;
   }
@@ -83,13 +67,10 @@ TEST(Sustained, ABallSlidesDownASlopeAsTheClosedFormSays) {
 
 TEST(Sustained, ABallLeavesATableAtItsEdge) {
   ModelBuilder b = ball_in_the_plane();
-  b.add_link({"table", {}});
-  b.add_joint({.name = "legs",
-               .type = JointType::fixed,
-               .parent = "world",
-               .child = "table",
-               .X_PJ = {Mat3::Identity(), Vec3(0, 0, -0.5)}});
-  b.add_shape("table", Box{Vec3(1, 1, 0.5)});
+  b.add_body({.name = "table",
+              .shape = Box{Vec3(1, 1, 0.5)},
+              .X = {Mat3::Identity(), Vec3(0, 0, -0.5)},
+              .joint = JointType::fixed});
   const Model model = b.build();
   const Trajectory run =
       simulate(model, model.state({{"x", 0}, {"z", 0.1}}, {{"x", 1}}), 2, {.h = 0.01});
@@ -104,9 +85,7 @@ TEST(Sustained, ABallLeavesADomeWhereItsWeightNoLongerPressesIt) {
   // Without friction at cos(angle) = 2/3 cos(start). Sampled at h, its height above the dome is
   // seen after a few steps: O(h) late.
   ModelBuilder b = ball_in_the_plane();
-  b.add_link({"dome", {}});
-  b.add_joint({.name = "ground", .type = JointType::fixed, .parent = "world", .child = "dome"});
-  b.add_shape("dome", Sphere{0.9});
+  b.add_body({.name = "dome", .shape = Sphere{0.9}, .joint = JointType::fixed});
   const Model model = b.build();
   const double start = 0.1;
   const auto leaves_at = [&](double h) {

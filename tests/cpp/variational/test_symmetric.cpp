@@ -1,7 +1,7 @@
 // Contacts that hit together: generalized reflections, and plastic impacts by projection.
 #include <gtest/gtest.h>
 
-#include "variational/contact_problems.hpp"
+#include "kit/contact_problems.hpp"
 
 namespace saltus {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "kit/scenes.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/variational/stepper.hpp"
-#include "variational/top_scene.hpp"
 
 namespace saltus {
 namespace {
@@ -91,12 +91,10 @@ TEST(FreeTop, ConvergesWithOrderTwo) {
 Model heavy_top(double m, double l, double A, double C) {
   BodyInertia body{m, Vec3(0, 0, l), Mat3::Zero()};
   body.I_J.diagonal() << A - m * l * l, A - m * l * l, C;
-  JointSpec joint;
-  joint.name = "tip";
-  joint.type = JointType::spherical;
-  joint.parent = "world";
-  joint.child = "top";
-  return ModelBuilder("heavy_top").add_link({"top", body}).add_joint(joint).build();
+  ModelBuilder b("heavy_top");
+  b.add_link({"top", body});
+  b.add_joint({.name = "tip", .type = JointType::spherical, .parent = "world", .child = "top"});
+  return b.build();
 }
 
 // Steady precession at tilt theta: C w3 O - (A - C... ) the two roots of

@@ -1,11 +1,12 @@
-// Impulses at one instant: while some contact approaches, reflect on one that does.
+// Frictionless impact on several contacts: while a contact approaches, one that does takes an
+// impulse.
 //
 // Paper, section III-D and (4), (5); theory, section 6. In contact space, with rows n_i = phi_q of
 // the contacts, u = N v and G = N M^-1 N^T:
 //
 //   lambda_i = -(1 + e_i) u_i / G_ii,   u += G(:, i) lambda_i     until all u >= -epsilon
 //
-// Ends after finitely many impulses if all e = 1 and the cone {v: N v >= 0} has an interior.
+// The cascade of impulses is finite if all e = 1 and the cone {v: N v >= 0} has an interior.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct CascadeOptions {
   int max_impulses = 100000;
 };
 
-/// G = N M^-1 N^T by rows, without the zeros: contacts on different bodies do not feel each other.
+/// G = N M^-1 N^T by rows, without zeros: contacts on different bodies do not affect each other.
 struct ContactMatrix {
   std::vector<int> start;        ///< (m + 1) where a row begins
   std::vector<int> column;       ///< of each entry
@@ -31,17 +32,18 @@ struct ContactMatrix {
   int size() const { return static_cast<int>(diagonal.size()); }
 };
 
-/// Who is next, kept up to date by a tournament: O(log m) where a rate changes.
+/// The next contact, kept up to date by a tournament tree: O(log m) for each rate that changes.
 struct CascadeScratch {
-  std::vector<double> key;  ///< (m) below 0 where a contact approaches
+  std::vector<double> key;  ///< (m) negative for a contact that approaches
   std::vector<int> winner;  ///< (2 leaves) of each match; winner[1] of all
 };
 
-/// Contact-space cascade in place: O(entries of a row) an impulse.
-/// @param u (m) gap rates, changed: after its impulse a contact has exactly -e u
-/// @param rest (m) epsilon_u >= 0; @param restitution (m) e in [0, 1] of each contact
+/// Contact-space cascade in place: O(entries of a row) for each impulse.
+/// @param u (m) gap rates, in and out: after its impulse a contact has exactly -e u
+/// @param rest (m) epsilon_u >= 0: a contact with u >= -epsilon_u does not approach
+/// @param restitution (m) e in [0, 1] of each contact
 /// @param impulses appended: (index of contact, lambda) in order
-/// @return false when max_impulses did not suffice.
+/// @return false if contacts still approach after max_impulses impulses
 SALTUS_EXPORT bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
                            const VecRef& restitution, const CascadeOptions& options,
                            CascadeScratch& scratch, std::vector<Impulse>& impulses);
@@ -59,8 +61,8 @@ struct ImpactOutcome {
 /// The continuous-time problem of the paper's section II, for any mass matrix and normals.
 /// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
 /// @param restitution (m) e in [0, 1] of each contact
-/// @throws ModelError on shapes that do not fit, values that are not finite, M not positive
-///         definite, e outside [0, 1]; JammedError when the cascade does not end.
+/// @throws ModelError on shapes that do not match, NaN or infinite values, M not positive definite,
+///         e outside [0, 1]; JammedError if the cascade does not end within max_impulses.
 SALTUS_EXPORT ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M,
                                            const Eigen::Ref<const MatX>& N, const VecRef& v,
                                            const VecRef& restitution,

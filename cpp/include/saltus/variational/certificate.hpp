@@ -1,4 +1,4 @@
-// Is the outcome of several contacts at one instant unique? What their angles tell (theory, section
+// Whether the outcome of an impact on several contacts is unique, by their angles (theory, section
 // 6).
 //
 // In the kinetic metric contacts are mirrors that meet at the wedge angles theta_ij,
@@ -20,36 +20,36 @@
 
 namespace saltus {
 
-/// What can be said of all velocities v at once.
+/// What holds for all velocities v before the impact.
 enum class ImpactKind {
-  unique,           ///< v+ does not depend on the order of impulses
-  order_dependent,  ///< there are v for which it does: any single answer is a convention
+  unique,           ///< v+ does not depend on the order of the impulses
+  order_dependent,  ///< for some v it does: any single answer is a convention
   jammed,           ///< no velocity opens all gaps at once: impulses need not end
 };
 
 struct ImpactCertificate {
   ImpactKind kind;
-  /// If unique, the groups of contacts that feel each other, larger ones first: "A3 x A1^2", or
-  /// "plastic" where all e = 0; else empty.
+  /// If unique, the groups of contacts that affect each other, larger ones first: "A3 x A1^2", or
+  /// "plastic" if all e = 0; else empty.
   std::string type;
-  std::optional<long> impulses;  ///< at most so many at one instant; none where no bound is known
+  std::optional<long> impulses;  ///< upper bound of their number; empty if none is known
   MatX angles;                   ///< (m, m) [rad] theta_ij, pi on the diagonal
   double interior;        ///< the largest d with N w >= d sqrt(diag G), |w|_M = 1; 0: there is none
-  std::vector<int> same;  ///< (m) the first contact with this one's normal, mostly itself
+  std::vector<int> same;  ///< (m) the first contact with the same normal, usually itself
 };
 
 /// "unique, A2, at most 3 impulses"
 SALTUS_EXPORT std::string describe(const ImpactCertificate& certificate);
 
 struct CertificateOptions {
-  /// An angle is pi/m if m theta / pi is 1 to this. What an error of the angles may change v by.
+  /// An angle counts as pi/m if m theta / pi is 1 to this; also the error of v that this causes.
   double tolerance = 1e-9;
 };
 
 /// @param M (n, n) positive definite; @param N (m, n) rows phi_q
-/// @param restitution (m) e in [0, 1] of each contact. With e < 1 only contacts that do not feel
-///        each other have a unique outcome, with all e = 0 any.
-/// @throws ModelError as resolve_impact(); also on a tolerance that is not in (0, 1e-3].
+/// @param restitution (m) e in [0, 1] of each contact. With e < 1 the outcome is unique only for
+///        contacts that do not affect each other; with all e = 0 it always is.
+/// @throws ModelError as resolve_impact(); also on a tolerance outside (0, 1e-3].
 SALTUS_EXPORT ImpactCertificate classify_impact(const Eigen::Ref<const MatX>& M,
                                                 const Eigen::Ref<const MatX>& N,
                                                 const VecRef& restitution,

@@ -1,4 +1,4 @@
-// The energies of a state, and the one that a fixed step conserves.
+// The energies of a state, and the shadow energy (modified Hamiltonian) of a fixed step.
 #pragma once
 
 namespace saltus {
@@ -6,7 +6,7 @@ namespace saltus {
 /// Energies of one state.
 struct Energies {
   double kinetic, potential;  ///< [J]
-  double shadow;              ///< [J] H - h^2 kappa / 24 (theory, section 5)
+  double shadow;              ///< [J] H - h^2 kappa / 24, conserved to O(h^4) (theory, section 5)
 };
 
 }  // namespace saltus

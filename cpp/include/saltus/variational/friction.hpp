@@ -1,19 +1,20 @@
-// Contacts with Coulomb friction at one instant: collisions one after another, and rest together.
+// Contacts with Coulomb friction at one instant: collisions one after another, or all at rest.
 //
 // Each contact has three rates u = (u_n, u_t): the gap rate n.v and the relative velocity T v of
-// the two material points in two unit tangents. An impulse p = (lambda, beta) there, |beta| <=
-// mu lambda, changes the rates of all by W = [N; T] M^-1 [N; T]^T.
+// the two material points along two unit tangents. A normal impulse lambda and a friction impulse
+// beta, p = (lambda, beta) with |beta| <= mu lambda, change the rates of all contacts by
+// W = [N; T] M^-1 [N; T]^T.
 //
-//   collide  while some contact approaches, let one collide: compression and expansion, friction
-//            by maximal dissipation in each (coulomb.hpp). With mu = 0 the plain cascade. If
-//            all e = 0 they settle.
+//   collide  while a contact approaches, one contact collides: compression and expansion, friction
+//            by maximal dissipation in each (coulomb.hpp). With mu = 0 this is the cascade. If all
+//            e = 0 the contacts settle instead.
 //   settle   all at once, e = 0:  0 <= lambda_i  _|_  u_n,i >= 0,  and beta_i dissipates most
 //
-// Restitution is Poisson's: it is the impulse of the expansion that is e times that of the
-// compression. Where normal and tangential motion are not coupled (spheres, discs) this is Newton's
-// u+ = -e u-; where they are, Newton's could gain energy. What several contacts at once do is a
-// convention, as it is without friction (cascade.hpp): one after another, in the order asked for
-// (`symmetric` is `fastest` here).
+// Restitution is Poisson's: the normal impulse of the expansion is e times that of the compression.
+// If normal and tangential motion are not coupled (spheres, discs) this is Newton's u+ = -e u-; if
+// they are, Newton's could gain energy. The outcome for several contacts is a convention, as it is
+// without friction (cascade.hpp): one after another, in the order asked for (`symmetric` is
+// `fastest` here).
 #pragma once
 
 #include <vector>
@@ -22,11 +23,11 @@
 
 namespace saltus {
 
-/// W by contacts: for each contact the rates that an impulse there changes, without zero blocks.
+/// W in blocks of 3 x 3: for each contact the rates that an impulse there changes, without zeros.
 struct ContactBlocks {
   std::vector<int> start;           ///< (m + 1) where a contact begins
-  std::vector<int> contact;         ///< of each entry: who feels it
-  std::vector<Mat3> block;          ///< likewise: its rates by a unit impulse
+  std::vector<int> contact;         ///< of each entry: the contact whose rates change
+  std::vector<Mat3> block;          ///< likewise: the change of its rates by a unit impulse
   std::vector<Mat3> own;            ///< (m) W_ii, symmetric
   std::vector<double> friction;     ///< (m) mu >= 0
   std::vector<double> restitution;  ///< (m) e in [0, 1]
@@ -41,15 +42,16 @@ struct FrictionImpulse {
   Vec3 p;  ///< [N s] lambda, beta
 };
 
-/// @param u (m) rates, changed; @param impulses appended, in order
-/// @return false when max_impulses did not suffice
+/// @param u (m) rates, in and out; @param impulses appended, in order
+/// @return false if contacts still approach after max_impulses impulses
 SALTUS_EXPORT bool collide(const ContactBlocks& W, const CascadeOptions& options,
                            std::vector<Vec3>& u, std::vector<Vec3>& scratch,
                            std::vector<FrictionImpulse>& impulses);
 
-/// Block Gauss-Seidel (NSGS: Jourdan, Alart & Jean 1998) until the impulses change by rounding.
-/// @param u (m) rates with `p` in place, changed; @param p (m) guess in, solution out
-/// @return sweeps used; most_sweeps where the impulses still changed
+/// Block Gauss-Seidel (NSGS: Jourdan, Alart & Jean 1998) until the impulses change by rounding
+/// only.
+/// @param u (m) rates after `p`, in and out; @param p (m) guess in, solution out
+/// @return number of sweeps; most_sweeps if the impulses still change
 SALTUS_EXPORT int settle(const ContactBlocks& W, int most_sweeps, std::vector<Vec3>& u,
                          std::vector<Vec3>& p);
 

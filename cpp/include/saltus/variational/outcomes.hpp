@@ -1,9 +1,9 @@
-// All that an impact can come to: every order of reflecting on one approaching contact at a time.
+// All outcomes of an impact: every order of reflecting on one approaching contact at a time.
 //
-// The orders are searched depth first. A velocity that was met before is not searched again, so
-// that the work goes with the number of velocities on the way (for contacts of a finite reflection
-// group at most its order, for N balls in line N!) and not with that of orders. Where impulses
-// have been found certain to end (theory, section 6) the set is complete.
+// The search is depth first and visits each velocity once. So the work grows with the number of
+// velocities on the way (for contacts of a finite reflection group at most its order, for N balls
+// in line N!) and not with the number of orders. If the impulses are certain to end (theory,
+// section 6), the set is complete.
 #pragma once
 
 #include <vector>
@@ -13,26 +13,26 @@
 namespace saltus {
 
 struct OutcomesOptions {
-  int max_outcomes = 1000;   ///< more are a ModelError
-  long max_states = 400000;  ///< velocities on the way, m numbers each; more are a ModelError
-  /// A gap rate below this part of |v|_M sqrt(G_ii) waits until no other contact approaches, and
-  /// outcomes that differ by less than this part of |v|_M are one.
+  int max_outcomes = 1000;   ///< more raise a ModelError
+  long max_states = 400000;  ///< velocities on the way, m numbers each; more raise a ModelError
+  /// A gap rate below this fraction of |v|_M sqrt(G_ii) waits until no other contact approaches,
+  /// and outcomes that differ by less than this fraction of |v|_M are the same.
   double tolerance = 1e-9;
 };
 
 struct ImpactOutcomes {
-  /// One order for each, the one that prefers low indices; the first is ImpactOrder::index's.
+  /// Each with one order that leads to it, that of lowest indices; the first is ImpactOrder::index.
   std::vector<ImpactOutcome> outcomes;
   double spread;           ///< [sqrt(J)] the largest |v_a - v_b|_M of two outcomes
   double relative_spread;  ///< of |v|_M, at most 2
-  long states;             ///< velocities met on the way, first and last ones included
+  long states;             ///< velocities on the way, first and last ones included
 };
 
 /// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
 /// @param restitution (m) e in [0, 1] of each contact; all 0: one outcome, the projection
-/// @throws ModelError as resolve_impact(), and where a bound of the options does not suffice;
-///         JammedError where an order of impulses leads back to a velocity it has come from, or
-///         where a bound does not suffice and no velocity opens all gaps.
+/// @throws ModelError as resolve_impact(), and if a bound of the options is exceeded;
+///         JammedError if an order of impulses returns to a velocity it has passed, or if a bound
+///         is exceeded and no velocity opens all gaps.
 SALTUS_EXPORT ImpactOutcomes impact_outcomes(const Eigen::Ref<const MatX>& M,
                                              const Eigen::Ref<const MatX>& N, const VecRef& v,
                                              const VecRef& restitution,

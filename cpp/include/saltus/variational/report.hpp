@@ -1,4 +1,4 @@
-// What happened in a step.
+// The report of a step.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace saltus {
 
-/// One reflection: p += lambda phi_q of this pair.
+/// One normal impulse: p += lambda phi_q of this pair.
 struct Impulse {
   int pair;       ///< index in model->pairs
   double lambda;  ///< [N s] >= 0
 };
 
-/// What acted between the two shapes of a pair. On the first acts lambda n_W + p_W, at point_W; on
-/// the second the opposite. By the step h, what held a pair closed over the step is the mean force.
+/// The impulse between the two shapes of a pair. lambda n_W + p_W acts on the first at point_W, the
+/// opposite on the second. For a contact held closed, divided by the step h, it is the mean force.
 struct ContactImpulse {
   int pair;       ///< index in model->pairs
-  double lambda;  ///< [N s] along the normal
-  Vec3 p_W;       ///< [N s] friction's, across the normal; 0 without friction
-  Vec3 point_W;   ///< [m] where: halfway between the nearest points of the two shapes
+  double lambda;  ///< [N s] normal impulse
+  Vec3 p_W;       ///< [N s] friction impulse, across the normal; 0 without friction
+  Vec3 point_W;   ///< [m] halfway between the nearest points of the two shapes
   Vec3 n_W;       ///< unit normal, from the second shape to the first
 };
 
@@ -29,18 +29,18 @@ struct Impact {
   double t;   ///< [s]
   int first;  ///< its impulses are impulses[first, first + count), in order
   int count;
-  int contacts;   ///< pairs that touched
+  int contacts;   ///< closed contacts
   ImpactLaw law;  ///< the law that was used
-  bool fallback;  ///< another law asked for, nodal_energy used (theory, section 5, warning a)
+  bool fallback;  ///< nodal_energy replaced the chosen law (theory, section 5, warning a)
 };
 
-/// A pair that bounced ever lower has come to rest.
+/// The end of infinitely many ever lower bounces of a pair (a Zeno point); it then stays closed.
 struct Settling {
-  double t;  ///< [s] when the last of infinitely many bounces ends
+  double t;  ///< [s] when the last bounce ends
   int pair;  ///< index in model->pairs
 };
 
-/// How a step was made that could not be made as it should.
+/// How a step that failed at first was made.
 enum class Rung {
   halved,  ///< by arcs of half the step, a quarter, ...: all is as exact as with a smaller h
   /// An arc by time stepping: contacts that close in it do not rebound, and no instant is sought.
@@ -64,11 +64,11 @@ struct Fallback {
 /// Written by Stepper; valid until its next step.
 struct StepReport {
   int iterations = 0;   ///< Newton iterations, over all arcs tried
-  int arcs = 0;         ///< arcs that the step is made of; 1 without impacts
-  int sustained = 0;    ///< arcs' contacts that were held closed by a force
+  int arcs = 0;         ///< arcs of the step; 1 without impacts
+  int sustained = 0;    ///< contacts held closed by a force, summed over the arcs
   double residual = 0;  ///< [largest momentum] of the worst arc
-  /// How far from Coulomb's law the step is, of its arcs and its closing half kicks the worst: by a
-  /// part of the largest impulse or rate. To 1e-9 it is rounding; more than 1e-6 is an error.
+  /// Residual of Coulomb's law, as a fraction of the largest impulse or rate: the worst of the arcs
+  /// and of the closing half kicks. Up to 1e-9 is rounding; more than 1e-6 is an error.
   double friction_residual = 0;
   std::vector<Impact> impacts;
   std::vector<ContactImpulse> impulses;  ///< of impacts

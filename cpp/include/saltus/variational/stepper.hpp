@@ -9,28 +9,28 @@
 
 namespace saltus {
 
-/// Owns a copy of the model and its scratch. Deterministic: the same sequence of states in gives
-/// the same bits out (the first guess uses the arcs before, so a single state out of sequence may
-/// differ in the last bits). Not for use by two threads at once; make one a thread.
+/// Owns a copy of the model and its working memory. Deterministic: the same sequence of states in
+/// gives the same bits out. (The first guess uses the arcs before, so the step of a single state
+/// may differ in the last bits.) Not thread-safe; make one stepper per thread.
 class SALTUS_EXPORT Stepper {
  public:
-  /// @throws ModelError where an option is out of its range.
+  /// @throws ModelError on an option outside its range.
   explicit Stepper(const Model& model, const StepOptions& options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
   Stepper& operator=(Stepper&&) noexcept;
 
   /// The state h later. `state` is not changed.
-  /// @throws ModelError on a state that does not fit the model or overlaps (names pairs, depths);
-  ///         StepError when an arc does not converge or impacts do not end; JammedError.
+  /// @throws ModelError on a state that does not fit the model, or with overlapping bodies (names
+  ///         pairs and depths); StepError if an arc does not converge or impacts do not end;
+  ///         JammedError.
   State advance(const State& state);
 
   /// The same in place, without any allocation after the first step; on an exception `state` is
-  /// as it was.
+  /// unchanged.
   void step(State& state);
 
-  /// Takes the next state as a start, also where it is the one that the last step ended with: what
-  /// comes is what a new Stepper would give, to the last bit.
+  /// Forgets all earlier steps: the next steps are bitwise those of a new Stepper.
   void forget();
 
   const StepReport& report() const;

@@ -51,7 +51,7 @@ VecX solve_nonnegative(const Mat& G, const VecX& u) {
     rate.emplace_back(u[some[i]], 0, 0);
   }
   PileScratch scratch;
-  settle_pile(contact_blocks(W), scratch, rate, impulse);
+  settle_for_sure(contact_blocks(W), scratch, rate, impulse);
   VecX lambda = VecX::Zero(u.size());
   for (std::size_t i = 0; i < some.size(); ++i) lambda[some[i]] = std::max(impulse[i][0], 0.0);
   return lambda;

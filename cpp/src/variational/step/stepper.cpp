@@ -19,6 +19,9 @@ constexpr double no_duration = 1e-12;
 /// Arcs of attempts at one step that failed: with more it is the arcs that are many, not long.
 constexpr int most_arcs_spent = 256;
 
+/// Arcs of time stepping in a step that others are tried beside.
+constexpr int most_stepped = 8;
+
 /// Touches (1e-10 of the shapes' size) that are an overlap at the start: what a state written with
 /// 8 digits loses is none.
 constexpr double overlap_touches = 100;
@@ -120,17 +123,20 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   state = last;
 }
 
-// The same, and where an arc or its impact fails, one of time stepping in its place.
+// The same, and where an arc or its impact fails, one of time stepping in its place. After a few of
+// these nothing else is tried in the step.
 void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
   clear(report);
   start(state, is_own);
   const double t_start = state.t, h = scene.options.h;
+  int stepped = 0;
   for (double left = h; left > 0;) {
     const StepReport told = report;
     const State at{node.t, node.q, node.p};
     const double tau = std::min(left, longest);
     blames_contact = false;
     try {
+      if (stepped > most_stepped) fail_work();
       const Launch* launch = has_approach(node) ? collide() : nullptr;
       fly_one_arc(tau, launch);
       const double rest = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
@@ -143,6 +149,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
       if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;
       left = tau < left ? left - tau : 0;
       fly_unlocated(tau, t_start + (h - left));
+      ++stepped;
     }
   }
   end_step(nullptr);  // an approach at the end is the next step's
