@@ -117,6 +117,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/flight/launch.cpp
   cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
+  cpp/src/variational/step/start_overlap.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/stepper.cpp
   cpp/src/variational/step/unlocated.cpp

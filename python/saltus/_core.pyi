@@ -1652,7 +1652,7 @@ class MeshUse(enum.Enum):
 
 class ImpactLaw(enum.IntEnum):
     """
-    The energy that an impact conserves.
+    Which energy an impact conserves.
 
     nodal_energy
         H(q, p+) = H(q, p-) at the impact, lambda = -2u/G in closed form; always solvable.
@@ -1676,7 +1676,7 @@ class ImpactLaw(enum.IntEnum):
 
 class ImpactOrder(enum.Enum):
     """
-    Which approaching contact takes the next impulse.
+    Which of the approaching contacts is next.
 
     fastest: the most negative u / sqrt(G), ties go to the lowest index. index: the lowest index.
     symmetric: all of them together, a reflection in the nearest face of their cone; keeps mirror
@@ -1851,7 +1851,7 @@ class FrictionOutcome:
 
 class ImpactKind(enum.Enum):
     """
-    What holds for an impact with any velocity before it.
+    What can be said of an impact for all velocities at once.
 
     unique: the velocity after does not depend on the order of the impulses. order_dependent: for some
     velocities it does, and any single answer is a convention. jammed: no velocity opens all gaps;
@@ -2596,16 +2596,16 @@ def resolve_impact(
     friction: typing.SupportsFloat | numpy.typing.ArrayLike | None = None,
 ) -> ImpactOutcome | FrictionOutcome:
     """
-    Frictionless impact: while a contact approaches, one that does takes an impulse.
+    Impulses at one instant: while some contact approaches, reflect on one that does.
 
     In contact space, with G = N M^-1 N^T and u = N v: `lambda_i = -(1 + e_i) u_i / G_ii`,
     `u += G[:, i] lambda_i`. Seghete and Murphey, "Multiple Instantaneous Collisions in a Variational
-    Framework", (4), (5) and section III-D. The impulses are finitely many if all e = 1 and the cone
+    Framework", (4), (5) and section III-D. Ends after finitely many impulses if all e = 1 and the cone
     {v: N v >= 0} has an interior.
 
-    `ImpactOrder.symmetric` reflects on all approaching contacts together. With `restitution=0` for all
-    contacts the result is, in any order, the projection on {v: N v >= 0}. `classify_impact` says
-    whether the order matters, `impact_outcomes` by how much.
+    The order `ImpactOrder.symmetric` reflects on all that approach together, and `restitution=0` for
+    all contacts is, in any order, the projection on {v: N v >= 0}. `classify_impact` tells whether the
+    order matters, `impact_outcomes` by how much.
 
     With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
     until it does not close any more and an expansion with e times the impulse of the compression

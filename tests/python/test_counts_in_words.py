@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import bouncing_ball, cradle
+from scenes import bouncing_ball, cradle
 
 import saltus
 from saltus.cli.main import main

@@ -22,10 +22,6 @@ constexpr int most_arcs_spent = 256;
 /// Arcs of time stepping in a step that others are tried beside.
 constexpr int most_stepped = 8;
 
-/// Touches (1e-10 of the shapes' size) that are an overlap at the start: what a state written with
-/// 8 digits loses is none.
-constexpr double overlap_touches = 100;
-
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
   if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
@@ -182,22 +178,6 @@ void Stepper::Impl::start(const State& state, bool is_own) {
     fail(FlightOutcome::not_converged);
   }
   if (!is_own) check_overlap();
-}
-
-void Stepper::Impl::check_overlap() const {
-  std::ostringstream text;
-  int found = 0;
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.phi >= -overlap_touches * pool[c.slot].touch) continue;
-    if (++found <= 5)
-      text << (found > 1 ? ", " : "") << name_of(c.slot) << " by " << -c.phi << " m";
-  }
-  if (found == 0) return;
-  if (found > 5) text << " and " << found - 5 << " pairs more";
-  throw ModelError("bodies overlap at the start: " + text.str() +
-                   "; move them apart (resolve_overlap does), exclude the pair, or step without "
-                   "collisions");
 }
 
 void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {

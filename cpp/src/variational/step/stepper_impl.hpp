@@ -35,7 +35,7 @@ struct Stepper::Impl {
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
   void start(const State& state, bool is_own);
-  void check_overlap() const;
+  void check_overlap();  // start_overlap.cpp
   void fly_one_arc(double left, const Launch* launch);
   void end_arc(double t);
   const Launch* collide();

@@ -1,0 +1,69 @@
+// Overlap at the start: of parts that touch, and of whole shapes, whose parts may all lie on faces.
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "variational/step/stepper_impl.hpp"
+
+namespace saltus {
+namespace {
+
+/// Touches (1e-10 of the shapes' size) that are an overlap: what a state written with 8 digits
+/// loses is none.
+constexpr double overlap_touches = 100;
+
+constexpr std::size_t most_listed = 5;
+
+/// By the names of links, which an exclusion takes; a shape of the world has its own.
+std::string name_of(const ModelData& model, int shape) {
+  const PlacedShape& placed = model.shapes[static_cast<std::size_t>(shape)];
+  return placed.joint < 0 ? placed.name : model.links[static_cast<std::size_t>(placed.link)].name;
+}
+
+using Depths = std::map<std::pair<std::string, std::string>, double>;
+
+void note(const ModelData& model, const Pair& pair, double phi, Depths& depths) {
+  if (phi >= -overlap_touches * pair.touch) return;
+  double& depth = depths[std::minmax(name_of(model, pair.a), name_of(model, pair.b))];
+  depth = std::max(depth, -phi);
+}
+
+std::string list(const Depths& depths) {
+  std::vector<std::pair<double, std::string>> deepest;
+  for (const auto& [names, depth] : depths) {
+    deepest.emplace_back(depth, names.first + " ~ " + names.second);
+  }
+  std::sort(deepest.rbegin(), deepest.rend());
+  std::ostringstream text;
+  for (std::size_t i = 0; i < std::min(deepest.size(), most_listed); ++i) {
+    text << (i > 0 ? ", " : "") << deepest[i].second << " by " << deepest[i].first << " m";
+  }
+  if (deepest.size() > most_listed) {
+    text << " and " << deepest.size() - most_listed << " pairs of links more";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+void Stepper::Impl::check_overlap() {
+  Depths depths;
+  for (int i = 0; i < node.touching; ++i) {
+    note(scene.model, pool[node.contacts[i].slot], node.contacts[i].phi, depths);
+  }
+  const Pair* solid = nullptr;
+  for (const int number : node.broad.candidates) {
+    const int slot = pool.slot_of(scene.model, number);
+    if (pool.solid(slot) == solid) continue;
+    solid = pool.solid(slot);
+    if (solid == nullptr) continue;
+    note(scene.model, *solid, pair_gap(scene.model.tree, node.kin, *solid).phi, depths);
+  }
+  if (depths.empty()) return;
+  throw ModelError("bodies overlap at the start: " + list(depths) +
+                   "; move them apart (resolve_overlap does), exclude the two links (add_exclusion "
+                   "of a ModelBuilder, <exclude link1=... link2=.../> in a file), or step without "
+                   "collisions");
+}
+
+}  // namespace saltus
