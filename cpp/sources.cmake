@@ -40,7 +40,6 @@ set(SALTUS_SOURCES
   cpp/src/collision/convex/solid.cpp
   cpp/src/collision/convex/solid_features.cpp
   cpp/src/collision/pairs/capsule_capsule.cpp
-  cpp/src/collision/pairs/convex_pairs.cpp
   cpp/src/collision/pairs/dispatch.cpp
   cpp/src/collision/pairs/half_space_pairs.cpp
   cpp/src/collision/pairs/sphere_box.cpp

@@ -1,16 +1,18 @@
 // Dispatch: the one place that knows which pairs have a gap.
 //
-// A pair is an overload of gap_between in its own file. Its header must be included here, above
-// the templates: an overload declared after them would be silently invisible.
+// A pair with a closed form is an overload of gap_between in its own file. Its header must be
+// included here, above the templates: an overload declared after them would be silently invisible.
+// Any other two shapes with a core (solid.hpp) are served by convex_gap.
 #include "saltus/collision/gap.hpp"
 
 #include <array>
 #include <cassert>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
+#include "collision/convex/convex_gap.hpp"
 #include "collision/pairs/capsule_capsule.hpp"
-#include "collision/pairs/convex_pairs.hpp"
 #include "collision/pairs/half_space_pairs.hpp"
 #include "collision/pairs/sphere_box.hpp"
 #include "collision/pairs/sphere_capsule.hpp"
@@ -24,7 +26,31 @@ namespace saltus {
 namespace {
 
 template <class A, class B>
-concept HasGap = requires(const A& a, const B& b, const Pose& X) { gap_between(a, X, b, X); };
+concept ClosedForm = requires(const A& a, const B& b, const Pose& X) { gap_between(a, X, b, X); };
+
+template <class S>
+concept HasCore = requires(const S& s, const Pose& X) { solid_of(s, X.R, X.p); };
+
+template <class S, std::size_t I = 0>
+constexpr std::size_t index_of() {
+  if constexpr (std::is_same_v<S, std::variant_alternative_t<I, Shape>>) {
+    return I;
+  } else {
+    return index_of<S, I + 1>();
+  }
+}
+
+/// In this order: of two without a closed form the one listed first in Shape is a.
+template <class A, class B>
+constexpr bool serves = ClosedForm<A, B> || (!ClosedForm<B, A> && HasCore<A> && HasCore<B> &&
+                                             index_of<A>() <= index_of<B>());
+
+/// About b's origin in the world's axes: a's position is then of the size of the distance.
+template <class A, class B>
+Gap gap_of_cores(const A& a, const Pose& X_WA, const B& b, const Pose& X_WB) {
+  return convex_gap(solid_of(a, X_WA.R, X_WA.p - X_WB.p), solid_of(b, X_WB.R, Vec3::Zero()),
+                    X_WB.p);
+}
 
 Gap exchanged(Gap g) {
   std::swap(g.p_WA, g.p_WB);
@@ -57,16 +83,18 @@ std::array<Shape, sizeof...(I)> one_of_each(std::index_sequence<I...>) {
 
 bool has_gap(const Shape& a, const Shape& b) {
   return std::visit(
-      []<class A, class B>(const A&, const B&) { return HasGap<A, B> || HasGap<B, A>; }, a, b);
+      []<class A, class B>(const A&, const B&) { return serves<A, B> || serves<B, A>; }, a, b);
 }
 
 Gap gap(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
   return std::visit(
       [&]<class A, class B>(const A& shape_a, const B& shape_b) {
-        if constexpr (HasGap<A, B>) {
+        if constexpr (ClosedForm<A, B>) {
           return gap_between(shape_a, X_WA, shape_b, X_WB);
-        } else if constexpr (HasGap<B, A>) {
-          return exchanged(gap_between(shape_b, X_WB, shape_a, X_WA));
+        } else if constexpr (serves<A, B>) {
+          return gap_of_cores(shape_a, X_WA, shape_b, X_WB);
+        } else if constexpr (serves<B, A>) {
+          return exchanged(gap(b, X_WB, a, X_WA));
         } else {
           return no_gap();
         }
@@ -80,7 +108,7 @@ std::vector<std::pair<std::string, std::string>> gap_table() {
   for (const Shape& a : shapes) {
     for (const Shape& b : shapes) {
       const bool row =
-          std::visit([]<class A, class B>(const A&, const B&) { return HasGap<A, B>; }, a, b);
+          std::visit([]<class A, class B>(const A&, const B&) { return serves<A, B>; }, a, b);
       if (row) table.emplace_back(shape_name(a), shape_name(b));
     }
   }
