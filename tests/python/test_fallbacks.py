@@ -26,7 +26,7 @@ def start(model: saltus.Model) -> dict[str, object]:
 def test_never_is_an_error_that_keeps_what_was_before():
     model = can()
     with pytest.raises(
-        saltus.StepError, match=r"DEL residual .* held by can\[rim\+\] ~ floor; a smaller h"
+        saltus.StepError, match=r"DEL residual .* held by body\[rim\+\] ~ floor; a smaller h"
     ) as error:
         saltus.simulate(model, **start(model), duration=0.5, h=H, max_halvings=0, strict=True)
     rows = error.value.trajectory
