@@ -96,7 +96,7 @@ It is named after its link, with "#2" added for the link's second, and so on.
 Parameters
 ----------
 link : str
-shape : Sphere, Capsule, Box, Cylinder or HalfSpace
+shape : Shape
 X_LG : Pose
     The shape's frame in the link's frame.
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/gap/point_distance.hpp"
+#include "collision/shapes/facts.hpp"
 
 namespace saltus {
 namespace {
@@ -31,12 +31,6 @@ constexpr double end = 1e-9;
 Vec3 axis(const Pose& X) { return X.R.col(2); }
 
 }  // namespace
-
-Capsule edge_capsule(const Shape& shape) {
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return *capsule;
-  const auto& cylinder = std::get<Cylinder>(shape);
-  return {cylinder.radius, cylinder.half_length};
-}
 
 bool is_within_ends(const Shape& edge, const Pose& X_WE, const Vec3& p_W) {
   const double along = axis(X_WE).dot(p_W - X_WE.p);
@@ -78,8 +72,8 @@ Gap crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
 
 double distance_around_cylinder(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
   const Shape &a = pair.on_a.shape, &b = pair.on_b.shape;
-  const bool is_a = std::holds_alternative<Cylinder>(a);
-  if (!is_a && !std::holds_alternative<Cylinder>(b)) {
+  const bool is_a = part_counts(a).rims > 0;
+  if (!is_a && part_counts(b).rims == 0) {
     return -std::numeric_limits<double>::infinity();
   }
   const Sphere ball{bounding_radius(is_a ? a : b)};

@@ -7,9 +7,6 @@
 
 namespace saltus {
 
-/// An edge as a capsule.
-Capsule edge_capsule(const Shape& shape);
-
 /// False where it is beyond the ends of an edge b (its axis), by its witness.
 bool is_within_ends(const Shape& edge, const Pose& X_WE, const Vec3& p_W);
 

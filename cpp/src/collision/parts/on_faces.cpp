@@ -13,7 +13,8 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/gap/point_distance.hpp"
+#include "collision/gap/sphere_gap.hpp"
+#include "collision/shapes/facts.hpp"
 #include "saltus/tree/tree.hpp"
 
 namespace saltus {
@@ -22,38 +23,6 @@ namespace {
 constexpr double flush = 1e-9;  // of the solid's size: as good as on the face, not beside it
 constexpr double deep = 0.01;   // of the solid's size
 constexpr double tilt = 1e-3;   // [rad] faces that are flat on each other may be apart
-
-/// A face of a solid as a point of the other sees it.
-struct SeenFace {
-  double e;         ///< [m] height of the point over it
-  Vec3 n;           ///< in the solid's frame
-  double bend = 0;  ///< [1/m] along n, about the solid's z axis
-};
-
-SeenFace face(const Box& box, const Vec3& c, int k) {
-  const Vec3 n = (k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2);
-  return {n.dot(c) - box.half[k / 2], n};
-}
-
-SeenFace face(const Convex& convex, const Vec3& c, int k) {
-  const Hull::Face& f = convex.hull->faces[k];
-  return {f.normal.dot(c) - f.offset, f.normal};
-}
-
-/// Its caps, and its side where that is nearest.
-SeenFace face(const Cylinder& cylinder, const Vec3& c, int k) {
-  if (k < 2) {
-    const double z = k == 0 ? 1 : -1;
-    return {z * c.z() - cylinder.half_length, z * Vec3::UnitZ()};
-  }
-  const double rho = std::hypot(c.x(), c.y());
-  if (rho < no_length) return {-cylinder.radius, Vec3::UnitX()};
-  return {rho - cylinder.radius, Vec3(c.x() / rho, c.y() / rho, 0), -1 / cylinder.radius};
-}
-
-int face_count(const Box&) { return 6; }
-int face_count(const Convex& convex) { return static_cast<int>(convex.hull->faces.size()); }
-int face_count(const Cylinder&) { return 3; }
 
 /// True where the body of a corner or rim goes on below a plane through it across n_A.
 bool goes_below(const Pair& pair, const Vec3& n_A) {
@@ -67,13 +36,14 @@ Gap corner_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose
               const Vec3& motion) {
   const Vec3 c = in_frame(X_WB, X_WA.p);
   const Mat3 R_BA = X_WB.R.transpose() * X_WA.R;
-  const double beside = flush * feature_size(solid);
+  const int faces = parts_of(solid).faces;
+  const double beside = flush * size_of(solid);
   SeenFace best{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
   double highest = best.e;
   const auto touches = [&](const SeenFace& seen) { return std::abs(seen.e) <= pair.touch; };
   const bool moves = !motion.isZero(0);
-  for (int k = 0; k < face_count(solid); ++k) {
-    const SeenFace seen = face(solid, c, k);
+  for (int k = 0; k < faces; ++k) {
+    const SeenFace seen = face_of(solid, c, k);
     highest = std::fmax(highest, seen.e);
     if (seen.e > beside) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
     const bool better = moves && touches(seen) && touches(best)
@@ -83,7 +53,7 @@ Gap corner_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose
     best = seen;
   }
   // a far side is not where it came in
-  if (!(best.e > highest - deep * feature_size(solid))) {
+  if (!(best.e > highest - deep * size_of(solid))) {
     return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
   }
   const bool round = best.bend != 0;
@@ -105,20 +75,21 @@ template <class Solid>
 Gap rim_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X_WB) {
   const double radius = std::get<Cylinder>(pair.on_a.shape).radius;
   const Pose X_BA{X_WB.R.transpose() * X_WA.R, in_frame(X_WB, X_WA.p)};
+  const int faces = parts_of(solid).faces;
   SeenFace best{-std::numeric_limits<double>::infinity(), Vec3::Zero()};
   Vec3 lowest = Vec3::Zero();
-  for (int k = 0; k < face_count(solid); ++k) {
-    const Vec3 n_A = X_BA.R.transpose() * face(solid, X_BA.p, k).n;
+  for (int k = 0; k < faces; ++k) {
+    const Vec3 n_A = X_BA.R.transpose() * face_of(solid, X_BA.p, k).n;
     const Vec3 c = X_BA * lowest_of_disc(radius, n_A);
-    const SeenFace seen = face(solid, c, k);
+    const SeenFace seen = face_of(solid, c, k);
     if (seen.e <= best.e || goes_below(pair, n_A)) continue;
     best = seen;
     lowest = c;
   }
   bool over = std::isfinite(best.e);
-  const double beside = flush * feature_size(solid);
-  for (int k = 0; k < face_count(solid) && over; ++k) {
-    const SeenFace seen = face(solid, lowest, k);
+  const double beside = flush * size_of(solid);
+  for (int k = 0; k < faces && over; ++k) {
+    const SeenFace seen = face_of(solid, lowest, k);
     over = seen.n == best.n || seen.e <= beside;
   }
   if (!over) return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
@@ -128,8 +99,8 @@ Gap rim_on(const Pair& pair, const Solid& solid, const Pose& X_WA, const Pose& X
 
 /// In touch, a rim on the side of a cylinder may be beside its end: the side alone tells n.
 Gap rim_on_cylinder(const Pair& pair, const Cylinder& b, const Pose& X_WA, const Pose& X_WB) {
-  const Gap g = gap(pair.on_a.shape, X_WA, b, X_WB);
-  const double beside = flush * feature_size(b);
+  const Gap g = gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+  const double beside = flush * size_of(b);
   if (g.phi > beside) return g;
   const double longer = b.half_length + 4 * (b.radius + bounding_radius(pair.on_a.shape));
   const Gap side = gap(pair.on_a.shape, X_WA, Cylinder{b.radius, longer}, X_WB);
@@ -141,28 +112,30 @@ Gap rim_on_cylinder(const Pair& pair, const Cylinder& b, const Pose& X_WA, const
 
 }  // namespace
 
-bool has_flat_faces(const Shape& shape) {
-  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
-         std::holds_alternative<Cylinder>(shape);
-}
-
 Gap corner_on_faces(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W) {
-  const Vec3 motion = X_WB.R.transpose() * motion_W;
-  const auto on = [&](const auto& solid) { return corner_on(pair, solid, X_WA, X_WB, motion); };
-  const Shape& solid = pair.on_b.shape;
-  if (const auto* box = std::get_if<Box>(&solid)) return on(*box);
-  if (const auto* convex = std::get_if<Convex>(&solid)) return on(*convex);
-  if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return on(*cylinder);
-  return gap(pair.on_a.shape, X_WA, solid, X_WB);
+  return std::visit(
+      [&]<class S>(const S& solid) {
+        if constexpr (HasFaces<S>) {
+          return corner_on(pair, solid, X_WA, X_WB, X_WB.R.transpose() * motion_W);
+        } else {
+          return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+        }
+      },
+      pair.on_b.shape);
 }
 
 Gap rim_on_faces(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
-  const Shape& solid = pair.on_b.shape;
-  if (const auto* box = std::get_if<Box>(&solid)) return rim_on(pair, *box, X_WA, X_WB);
-  if (const auto* convex = std::get_if<Convex>(&solid)) return rim_on(pair, *convex, X_WA, X_WB);
-  const auto* cylinder = std::get_if<Cylinder>(&solid);
-  if (cylinder != nullptr) return rim_on_cylinder(pair, *cylinder, X_WA, X_WB);
-  return gap(pair.on_a.shape, X_WA, solid, X_WB);
+  return std::visit(
+      [&]<class S>(const S& solid) {
+        if constexpr (std::is_same_v<S, Cylinder>) {
+          return rim_on_cylinder(pair, solid, X_WA, X_WB);
+        } else if constexpr (HasFaces<S>) {
+          return rim_on(pair, solid, X_WA, X_WB);
+        } else {
+          return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+        }
+      },
+      pair.on_b.shape);
 }
 
 }  // namespace saltus

@@ -6,9 +6,6 @@
 
 namespace saltus {
 
-/// True where corner_on_faces knows the shape: box, convex, cylinder.
-bool has_flat_faces(const Shape& shape);
-
 /// The gap of a pair of a corner with edges (pair.inward) and a shape, against which it moves; see
 /// part_gap.
 Gap corner_on_faces(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W);

@@ -6,7 +6,7 @@
 #include "collision/parts/crossing.hpp"
 #include "collision/parts/on_faces.hpp"
 #include "collision/parts/rim_crossing.hpp"
-#include "collision/shapes/corners.hpp"
+#include "collision/shapes/facts.hpp"
 
 namespace saltus {
 namespace {
@@ -16,8 +16,11 @@ bool is(const Shape& shape) {
   return std::holds_alternative<Kind>(shape);
 }
 
-/// Balls and ellipsoids touch anything in one point.
-bool is_round(const Shape& shape) { return is<Sphere>(shape) || is<Ellipsoid>(shape); }
+/// What has no parts touches anything in one point.
+bool is_round(const Shape& shape) {
+  const PartCounts n = part_counts(shape);
+  return n.corners + n.edges + n.rims == 0 && !is<HalfSpace>(shape);
+}
 
 /// Edges of solids are listed up to this many crossings of two shapes: boxes have 144, hexagonal
 /// prisms 324. Each is a gap of its own, looked at in every step in which the two are near.
@@ -39,16 +42,16 @@ struct Counts {
 Counts counts_of(const Shape& a, const Shape& b) {
   if (!has_gap(a, b)) return {};
   if (is_round(a) || is_round(b)) return {.whole = 1};
-  if (is<HalfSpace>(b)) return {.corners_a = corner_count(a), .rims_a = rim_count(a)};
-  const int edges_a = edge_count(a), edges_b = edge_count(b);
-  Counts n{.corners_a = corner_count(a),
-           .corners_b = corner_count(b),
-           .lines = edges_a * edges_b,
-           .over_a = rim_count(a) * edges_b,
-           .over_b = rim_count(b) * edges_a,
-           .tips = rim_count(a) * rim_count(b) / 2,
-           .rims_a = rim_count(a),
-           .rims_b = rim_count(b)};
+  const PartCounts of_a = part_counts(a), of_b = part_counts(b);
+  if (is<HalfSpace>(b)) return {.corners_a = of_a.corners, .rims_a = of_a.rims};
+  Counts n{.corners_a = of_a.corners,
+           .corners_b = of_b.corners,
+           .lines = of_a.edges * of_b.edges,
+           .over_a = of_a.rims * of_b.edges,
+           .over_b = of_b.rims * of_a.edges,
+           .tips = of_a.rims * of_b.rims / 2,
+           .rims_a = of_a.rims,
+           .rims_b = of_b.rims};
   if (n.crossings() <= most_crossings) return n;
   n.lines = n.over_a = n.over_b = n.tips = 0;
   n.whole = 1;
@@ -93,7 +96,8 @@ Parts parts_of(const Shape& a, const Shape& b, int k) {
   if (k < n.corners_b) return {PairKind::corner, true, corner(b, k), all_of(a)};
   k -= n.corners_b;
   if (k < n.lines) {
-    return {PairKind::crossing, false, edge(a, k / edge_count(b)), edge(b, k % edge_count(b))};
+    const int edges_b = part_counts(b).edges;
+    return {PairKind::crossing, false, edge(a, k / edges_b), edge(b, k % edges_b)};
   }
   k -= n.lines;
   if (k < n.over_a) return over_rim(a, b, k, false);
@@ -115,8 +119,9 @@ Placed put(const PlacedShape& shape, const PartOfShape& part) {
 /// A corner or rim that slides over the border of a face stays in its plane, also where that ends.
 /// What is round bears the rims and the points of cylinders as it is.
 bool is_held_in_faces(const Shape& a, const Parts& parts, const Shape& b) {
-  if (parts.rim != RimPart::none) return is<Box>(b) || is<Convex>(b);
-  return !is<Cylinder>(a) || has_flat_faces(b);
+  const PartCounts n = part_counts(b);
+  if (parts.rim != RimPart::none) return n.faces > 0 && n.rims == 0;
+  return part_counts(a).rims == 0 || n.faces > 0;
 }
 
 Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b,
@@ -196,10 +201,10 @@ bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& 
   if (pair.kind == PairKind::corner) return is_rim_point_silent(pair, X_WA, gap);
   if (!pair.skips_corners) return false;
   const auto on_corner = [](const Shape& shape, const Patch& patch) {
-    return patch.dim == 0 && !is<Cylinder>(shape);
+    return patch.dim == 0 && part_counts(shape).rims == 0;
   };
   const auto on_rim = [](const Shape& shape, const Patch& patch, const Patch& other) {
-    return patch.dim == 1 && other.dim == 2 && is<Cylinder>(shape);
+    return patch.dim == 1 && other.dim == 2 && part_counts(shape).rims > 0;
   };
   const Shape &a = pair.on_a.shape, &b = pair.on_b.shape;
   return on_corner(a, gap.a) || on_corner(b, gap.b) || on_rim(a, gap.a, gap.b) ||

@@ -18,8 +18,8 @@
 #include <limits>
 
 #include "collision/convex/meeting.hpp"
-#include "collision/gap/point_distance.hpp"
 #include "collision/parts/crossing.hpp"
+#include "collision/shapes/facts.hpp"
 #include "saltus/tree/tree.hpp"
 
 namespace saltus {
@@ -42,10 +42,11 @@ constexpr double tilt = 1e-3;           // [rad] as of edges: crossing.cpp
 /// [pair.touch] as of edges: crossing.cpp
 constexpr double deepest = 1e8;
 
-bool is_cylinder(const Shape& shape) { return std::holds_alternative<Cylinder>(shape); }
+bool has_rims(const Shape& shape) { return part_counts(shape).rims > 0; }
 
 /// What a pair is about.
 struct Place {
+  const Shape& shape_a;
   Cylinder a;
   const Shape& b;
   RimPart rim;
@@ -56,7 +57,8 @@ struct Place {
 };
 
 Place place_of(const Pair& pair) {
-  return {std::get<Cylinder>(pair.on_a.shape), pair.on_b.shape, pair.rim, pair.out_a, pair.out_b};
+  const Shape& a = pair.on_a.shape;
+  return {a, std::get<Cylinder>(a), pair.on_b.shape, pair.rim, pair.out_a, pair.out_b};
 }
 
 /// Out of the cap that is nearer to p.
@@ -144,12 +146,13 @@ bool is_edge_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap
 Gap gap_at(const Place& place, const Pose& X_WA, const Pose& X_WB) {
   Guess at;
   if (!guess(place, X_WA, X_WB, at)) return nowhere(X_WA, X_WB);
-  const Vec3 zero = Vec3::Zero(), p_B = X_WB.p - X_WA.p;
-  const Solid A = solid_of(place.a, X_WA.R, zero);
+  const Vec3 p_B = X_WB.p - X_WA.p;
+  const Solid A = solid_of(place.shape_a, X_WA.R, Vec3::Zero());
   const bool rims = place.of_rims();
-  const Solid B =
-      rims ? solid_of(place.other(), X_WB.R, p_B) : solid_of(edge_capsule(place.b), X_WB.R, p_B);
-  const Vec3 end = B.size.z() * X_WB.R.col(2);
+  const Capsule edge = edge_capsule(place.b);
+  const Shape line = edge;
+  const Solid B = solid_of(rims ? place.b : line, X_WB.R, p_B);
+  const Vec3 end = edge.half_length * X_WB.R.col(2);
   Feature a = rim_at(A, at.x), b = rims ? rim_at(B, at.y) : edge_between(p_B - end, p_B + end);
   if (!rims) b.x = at.y;
   Vec3 n = at.n;
@@ -202,10 +205,10 @@ bool is_rim_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const G
   const Vec3 z = X_WA.R.col(2);
   const Shape& b = pair.on_b.shape;
   const bool upright = z.cross(gap.n_W).norm() < upright_sine;
-  if (is_cylinder(b) || std::holds_alternative<Capsule>(b)) {
-    const bool on_side = is_cylinder(b) && gap.b.dim == 2;
+  if (has_rims(b) || std::holds_alternative<Capsule>(b)) {
+    const bool on_side = has_rims(b) && gap.b.dim == 2;
     if (on_side && std::abs(X_WB.R.col(2).dot(gap.n_W)) > 0.5) return upright;  // its cap
-    const bool rims = is_cylinder(b) && !on_side;
+    const bool rims = has_rims(b) && !on_side;
     return is_crossed(pair, rims, X_WA, X_WB, gap);
   }
   if (gap.b.dim == 2) return upright;
@@ -241,7 +244,7 @@ bool near_rim(const Pair& pair, const Pose& X_BA, NearRim& out) {
   const double radius = out.of_a ? 0 : edge_capsule(pair.on_b.shape).radius;
   out.part.X_JG = whole.X_JG * X_GP;
   out.part.shape = Capsule{radius, length / 2};
-  if (!out.of_a && is_cylinder(pair.on_b.shape)) out.part.shape = Cylinder{radius, length / 2};
+  if (!out.of_a && has_rims(pair.on_b.shape)) out.part.shape = Cylinder{radius, length / 2};
   return true;
 }
 
