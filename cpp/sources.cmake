@@ -46,10 +46,12 @@ set(SALTUS_SOURCES
   cpp/src/collision/convex/meeting.cpp
   cpp/src/collision/pairs/capsule_capsule.cpp
   cpp/src/collision/pairs/dispatch.cpp
+  cpp/src/collision/parts/corner.cpp
   cpp/src/collision/parts/crossing.cpp
-  cpp/src/collision/parts/on_faces.cpp
   cpp/src/collision/parts/parts.cpp
+  cpp/src/collision/parts/rim.cpp
   cpp/src/collision/parts/rim_crossing.cpp
+  cpp/src/collision/parts/whole.cpp
   cpp/src/collision/contact/contact.cpp
   cpp/src/collision/contact/slip.cpp
   cpp/src/collision/watch/ball_tree.cpp

@@ -19,8 +19,7 @@
 #include <limits>
 
 #include "collision/chord/chord_path.hpp"
-#include "collision/parts/crossing.hpp"
-#include "collision/parts/rim_crossing.hpp"
+#include "collision/parts/kinds.hpp"
 #include "collision/shapes/facts.hpp"
 
 namespace saltus {
@@ -162,8 +161,9 @@ ChordHit search_at_cylinder(Chord chord, double floor) {
   const double around = distance_around_cylinder(chord.pair, X_BA, {});
   if (around - first_bounds(chord).mu > floor) return {ChordHit::Outcome::clear, 1};
   NearRim near;
-  if (chord.pair.rim == RimPart::none) return search(chord, floor);
-  if (!near_rim(chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
+  const auto* crossing = std::get_if<RimCrossing>(&chord.pair.kind);
+  if (crossing == nullptr) return search(chord, floor);
+  if (!near_rim(*crossing, chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
   (near.of_a ? chord.part_a : chord.part_b) = &near.part;
   return search(chord, floor);
 }

@@ -24,7 +24,7 @@ bool is_rod_end(const ModelData& model, const Pair& pair) {
 /// plane of the face, and at the next node it is beside it and free.
 void hold_in_face(const ModelData& model, const Contact& contact, const Pair& pair,
                   const Node& node, ArcConstraint& c) {
-  c.face.kind = PairKind::whole;
+  c.face.kind = Whole{};
   c.face.on_a = pair.on_a;
   c.face.on_b.joint = pair.on_b.joint;
   c.face.chain = pair.chain;  // no allocation: room for the deepest is reserved
