@@ -154,7 +154,7 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
     from matplotlib.collections import PolyCollection
 
     flat = isinstance(shape, HalfSpace)
-    facets = [corners @ X.R.T + X.p for corners in FACETS.get(type(shape), _hull)(shape)]
+    facets = [corners @ X.R.T + X.p for corners in facets_of(shape)]
     outward = _normals(facets)
     (seen,) = np.nonzero(outward @ TOWARDS > 1e-9)
     light = 0.62 + 0.38 * np.maximum(0, outward[seen] @ LIGHT)
@@ -240,6 +240,11 @@ def _hull(shape: Shape) -> Facets:
 
 def _half_space(_: HalfSpace) -> Facets:
     return [PLANE * np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])]
+
+
+def facets_of(shape: Shape) -> Facets:
+    """Return what is drawn of a shape, in its frame."""
+    return FACETS.get(type(shape), _hull)(shape)
 
 
 FACETS: dict[type, Callable[..., Facets]] = {

@@ -10,35 +10,43 @@
 namespace saltus {
 
 struct Sphere {
+  static constexpr const char* name = "sphere";
   double radius;
 };
 /// All points within `radius` of the segment z in [-half_length, half_length].
 struct Capsule {
+  static constexpr const char* name = "capsule";
   double radius, half_length;
 };
 /// |x| <= half.x, |y| <= half.y, |z| <= half.z.
 struct Box {
+  static constexpr const char* name = "box";
   Vec3 half;
 };
 /// Axis z, |z| <= half_length.
 struct Cylinder {
+  static constexpr const char* name = "cylinder";
   double radius, half_length;
 };
 /// The solid z <= 0; its normal is the frame's z axis. Fixed to the world.
-struct HalfSpace {};
+struct HalfSpace {
+  static constexpr const char* name = "half_space";
+};
 
 /// (x/radii.x)^2 + (y/radii.y)^2 + (z/radii.z)^2 <= 1.
 struct Ellipsoid {
+  static constexpr const char* name = "ellipsoid";
   Vec3 radii;
 };
 /// Shared between copies; never null in a model.
 struct Convex {
+  static constexpr const char* name = "convex";
   std::shared_ptr<const Hull> hull;
 };
 
 using Shape = std::variant<Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid, Convex>;
 
-/// "sphere", "capsule", "box", "cylinder", "half_space", "ellipsoid", "convex".
+/// "half_space": the name of the one that it is.
 SALTUS_EXPORT std::string shape_name(const Shape& shape);
 
 /// [m] radius of the ball about the shape's origin that holds it; infinity for a half-space.

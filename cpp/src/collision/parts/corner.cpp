@@ -63,14 +63,15 @@ bool goes_below(const Pair& pair, const Vec3& n_A) {
 
 Gap gap_of(const Corner&, const Pair& pair, const Pose& X_WA, const Pose& X_WB,
            const Vec3& motion_W) {
+  const auto anywhere = [&] { return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB); };
+  if (pair.inward.empty()) return anywhere();
   return std::visit(
       [&]<class S>(const S& solid) {
         if constexpr (HasFaces<S>) {
-          if (!pair.inward.empty()) {
-            return corner_on(pair, solid, X_WA, X_WB, X_WB.R.transpose() * motion_W);
-          }
+          return corner_on(pair, solid, X_WA, X_WB, X_WB.R.transpose() * motion_W);
+        } else {
+          return anywhere();
         }
-        return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
       },
       pair.on_b.shape);
 }

@@ -229,8 +229,8 @@ bool near_rim(const RimCrossing& crossing, const Pair& pair, const Pose& X_BA, N
   const double radius = out.of_a ? 0 : edge_capsule(pair.on_b.shape).radius;
   out.part.X_JG = whole.X_JG * X_GP;
   out.part.shape = Capsule{radius, length / 2};
-  if (!out.of_a && part_counts(pair.on_b.shape).rims > 0)
-    out.part.shape = Cylinder{radius, length / 2};
+  const bool is_side = !out.of_a && part_counts(pair.on_b.shape).rims > 0;
+  if (is_side) out.part.shape = Cylinder{radius, length / 2};
   return true;
 }
 

@@ -3,7 +3,6 @@
 
 namespace saltus {
 
-const char* name_of(const Box&) { return "box"; }
 double ball_of(const Box& s) { return s.half.norm(); }
 double size_of(const Box& s) { return s.half.minCoeff(); }
 std::string flaw_of(const Box& s) { return flaw_of_size(s.half); }

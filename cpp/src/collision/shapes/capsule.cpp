@@ -4,7 +4,6 @@
 
 namespace saltus {
 
-const char* name_of(const Capsule&) { return "capsule"; }
 double ball_of(const Capsule& s) { return s.half_length + s.radius; }
 double size_of(const Capsule& s) { return s.radius; }
 

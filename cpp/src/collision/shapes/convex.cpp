@@ -85,8 +85,6 @@ PointDistance distance_from_edges(const Vec3& c, const Hull& hull, const Hull::F
 
 }  // namespace
 
-const char* name_of(const Convex&) { return "convex"; }
-
 double ball_of(const Convex& s) {
   double square = 0;
   for (const Vec3& v : s.hull->vertices) square = std::fmax(square, v.squaredNorm());

@@ -5,7 +5,6 @@
 
 namespace saltus {
 
-const char* name_of(const Cylinder&) { return "cylinder"; }
 double ball_of(const Cylinder& s) { return std::hypot(s.radius, s.half_length); }
 double size_of(const Cylinder& s) { return std::fmin(s.radius, s.half_length); }
 

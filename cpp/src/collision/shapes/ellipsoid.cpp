@@ -67,7 +67,6 @@ double multiplier(const Vec3& rc, const Vec3& D, double from) {
 
 }  // namespace
 
-const char* name_of(const Ellipsoid&) { return "ellipsoid"; }
 double ball_of(const Ellipsoid& s) { return s.radii.maxCoeff(); }
 double size_of(const Ellipsoid& s) { return s.radii.minCoeff(); }
 std::string flaw_of(const Ellipsoid& s) { return flaw_of_size(s.radii); }

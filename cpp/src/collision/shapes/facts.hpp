@@ -64,7 +64,7 @@ std::string flaw_of_hull(const Hull& hull);
 /// "of size (1 -1 1); ..." unless all are finite and positive; "" then.
 std::string flaw_of_size(const Vec3& size);
 
-// Each shape has name_of, ball_of and size_of (shapes.hpp), flaw_of: "" or what is wrong with its
+// Each shape has ball_of and size_of (shapes.hpp), flaw_of: "" or what is wrong with its
 // sizes, and parts_of; one that has no parts is round and touches anything in one point.
 //
 // One with an end has homogeneous_of, the solid of this mass, and a core:
@@ -93,7 +93,6 @@ Capsule axis_of(const Shape&) = delete;
 /// Components of a turned unit vector are this uncertain.
 inline constexpr double level_sine = 4e-16;
 
-const char* name_of(const Sphere&);
 double ball_of(const Sphere& s);
 double size_of(const Sphere& s);
 std::string flaw_of(const Sphere& s);
@@ -102,7 +101,6 @@ Core core_of(const Sphere& s);
 Vec3 brick_of(const Sphere&);
 PointDistance distance_of(const Sphere& s, const Vec3& c);
 
-const char* name_of(const Capsule&);
 double ball_of(const Capsule& s);
 double size_of(const Capsule& s);
 std::string flaw_of(const Capsule& s);
@@ -115,7 +113,6 @@ PartOfShape edge_of(const Capsule& s, int k);
 Capsule axis_of(const Capsule& s);
 PointDistance distance_of(const Capsule& s, const Vec3& c);
 
-const char* name_of(const Box&);
 double ball_of(const Box& s);
 double size_of(const Box& s);
 std::string flaw_of(const Box& s);
@@ -128,7 +125,6 @@ PartOfShape edge_of(const Box& s, int k);
 SeenFace face_of(const Box& s, const Vec3& c, int k);
 PointDistance distance_of(const Box& s, const Vec3& c);
 
-const char* name_of(const Cylinder&);
 double ball_of(const Cylinder& s);
 double size_of(const Cylinder& s);
 std::string flaw_of(const Cylinder& s);
@@ -146,13 +142,11 @@ Capsule axis_of(const Cylinder& s);
 PointDistance distance_of(const Cylinder& s, const Vec3& c);
 Lowest lowest_of(const Cylinder& s, const Vec3& m);
 
-const char* name_of(const HalfSpace&);
 double ball_of(const HalfSpace&);
 double size_of(const HalfSpace&);
 std::string flaw_of(const HalfSpace&);
 PointDistance distance_of(const HalfSpace&, const Vec3& c);
 
-const char* name_of(const Ellipsoid&);
 double ball_of(const Ellipsoid& s);
 double size_of(const Ellipsoid& s);
 std::string flaw_of(const Ellipsoid& s);
@@ -167,7 +161,6 @@ Patch patch_on(const Ellipsoid& e, const Solid& s, const Feature& f, const Vec3&
 PointDistance distance_of(const Ellipsoid& s, const Vec3& c);
 Lowest lowest_of(const Ellipsoid& s, const Vec3& m);
 
-const char* name_of(const Convex&);
 double ball_of(const Convex& s);
 double size_of(const Convex& s);
 std::string flaw_of(const Convex& s);

@@ -4,7 +4,6 @@
 
 namespace saltus {
 
-const char* name_of(const HalfSpace&) { return "half_space"; }
 double ball_of(const HalfSpace&) { return std::numeric_limits<double>::infinity(); }
 double size_of(const HalfSpace&) { return std::numeric_limits<double>::infinity(); }
 std::string flaw_of(const HalfSpace&) { return ""; }

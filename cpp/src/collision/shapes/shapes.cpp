@@ -30,7 +30,7 @@ Core core(const Shape& shape) {
 }  // namespace
 
 std::string shape_name(const Shape& shape) {
-  return std::visit([](const auto& s) { return name_of(s); }, shape);
+  return std::visit([](const auto& s) { return s.name; }, shape);
 }
 
 double bounding_radius(const Shape& shape) {

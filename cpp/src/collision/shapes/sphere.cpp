@@ -5,7 +5,6 @@
 
 namespace saltus {
 
-const char* name_of(const Sphere&) { return "sphere"; }
 double ball_of(const Sphere& s) { return s.radius; }
 double size_of(const Sphere& s) { return s.radius; }
 std::string flaw_of(const Sphere& s) { return flaw_of_size(Vec3::Constant(s.radius)); }
