@@ -25,11 +25,18 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp
   # collision
-  cpp/src/collision/shapes/corners.cpp
+  cpp/src/collision/shapes/box.cpp
+  cpp/src/collision/shapes/capsule.cpp
+  cpp/src/collision/shapes/convex.cpp
+  cpp/src/collision/shapes/cylinder.cpp
+  cpp/src/collision/shapes/ellipsoid.cpp
   cpp/src/collision/shapes/facets.cpp
+  cpp/src/collision/shapes/features.cpp
+  cpp/src/collision/shapes/half_space.cpp
   cpp/src/collision/shapes/hull.cpp
+  cpp/src/collision/shapes/hull_flaw.cpp
   cpp/src/collision/shapes/shapes.cpp
-  cpp/src/collision/gap/core.cpp
+  cpp/src/collision/shapes/sphere.cpp
   cpp/src/collision/gap/curvature.cpp
   cpp/src/collision/gap/pair.cpp
   cpp/src/collision/convex/convex_gap.cpp
@@ -37,22 +44,14 @@ set(SALTUS_SOURCES
   cpp/src/collision/convex/gjk.cpp
   cpp/src/collision/convex/lay_flat.cpp
   cpp/src/collision/convex/meeting.cpp
-  cpp/src/collision/convex/solid.cpp
-  cpp/src/collision/convex/solid_features.cpp
   cpp/src/collision/pairs/capsule_capsule.cpp
   cpp/src/collision/pairs/dispatch.cpp
-  cpp/src/collision/pairs/half_space_pairs.cpp
-  cpp/src/collision/pairs/sphere_box.cpp
-  cpp/src/collision/pairs/sphere_capsule.cpp
-  cpp/src/collision/pairs/sphere_convex.cpp
-  cpp/src/collision/pairs/sphere_cylinder.cpp
-  cpp/src/collision/pairs/sphere_ellipsoid.cpp
-  cpp/src/collision/pairs/sphere_half_space.cpp
-  cpp/src/collision/pairs/sphere_sphere.cpp
+  cpp/src/collision/parts/corner.cpp
   cpp/src/collision/parts/crossing.cpp
-  cpp/src/collision/parts/on_faces.cpp
   cpp/src/collision/parts/parts.cpp
+  cpp/src/collision/parts/rim.cpp
   cpp/src/collision/parts/rim_crossing.cpp
+  cpp/src/collision/parts/whole.cpp
   cpp/src/collision/contact/contact.cpp
   cpp/src/collision/contact/slip.cpp
   cpp/src/collision/watch/ball_tree.cpp
@@ -141,6 +140,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/rewrite.cpp
   cpp/src/urdf/schema.cpp
   cpp/src/urdf/schema_checks.cpp
+  cpp/src/urdf/shape_elements.cpp
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp

@@ -29,7 +29,7 @@ constexpr auto gap_doc = R"(Signed distance, normal, witness points and curvatur
 
 Parameters
 ----------
-a, b : Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
+a, b : Shape
 X_WA, X_WB : Pose
     Where they are.
 
@@ -57,30 +57,36 @@ constexpr auto pair_doc = R"(A gap that is watched, of two shapes of a model or 
 
 std::string show(double x) { return py::repr(py::float_(x)).cast<std::string>(); }
 
-std::string show(const Shape& shape) {
-  struct Show {
-    std::string operator()(const Sphere& s) const { return "Sphere(" + show(s.radius) + ")"; }
-    std::string operator()(const Capsule& c) const {
-      return "Capsule(" + show(c.radius) + ", " + show(c.half_length) + ")";
-    }
-    std::string operator()(const Box& b) const {
-      return "Box((" + show(b.half[0]) + ", " + show(b.half[1]) + ", " + show(b.half[2]) + "))";
-    }
-    std::string operator()(const Cylinder& c) const {
-      return "Cylinder(" + show(c.radius) + ", " + show(c.half_length) + ")";
-    }
-    std::string operator()(const HalfSpace&) const { return "HalfSpace()"; }
-    std::string operator()(const Ellipsoid& e) const {
-      return "Ellipsoid((" + show(e.radii[0]) + ", " + show(e.radii[1]) + ", " + show(e.radii[2]) +
-             "))";
-    }
-    std::string operator()(const Convex& c) const {
-      return "Convex(" + std::to_string(c.hull->vertices.size()) + " vertices, " +
-             std::to_string(c.hull->faces.size()) + " faces)";
-    }
-    static std::string show(double x) { return bindings::show(x); }
-  };
-  return std::visit(Show{}, shape);
+std::string show(const Vec3& x) {
+  return "(" + show(x[0]) + ", " + show(x[1]) + ", " + show(x[2]) + ")";
+}
+
+/// A size of a shape, and what it is.
+template <class S, class T>
+struct Field {
+  T S::* at;
+  const char* name;
+  const char* doc;
+};
+
+/// A shape that is its sizes: made of them, shown by them, pickled as them.
+template <class S, class... T>
+void bind_shape(py::module_& m, const char* name, const char* doc, const Field<S, T>&... field) {
+  py::class_<S> shape(m, name, doc);
+  shape.def(py::init([](const T&... size) { return S{size...}; }), py::arg(field.name)...);
+  (shape.def_readonly(field.name, field.at, field.doc), ...);
+  shape.def("__repr__", [=]([[maybe_unused]] const S& s) {
+    std::string sizes;
+    ((sizes += (sizes.empty() ? "" : ", ") + show(s.*field.at)), ...);
+    return std::string(name) + "(" + sizes + ")";
+  });
+  shape.def(py::pickle([=]([[maybe_unused]] const S& s) { return py::make_tuple(s.*field.at...); },
+                       [=]([[maybe_unused]] const py::tuple& t) {
+                         S s{};
+                         [[maybe_unused]] std::size_t i = 0;
+                         ((s.*field.at = t[i++].cast<T>()), ...);
+                         return s;
+                       }));
 }
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -121,49 +127,33 @@ void bind_convex(py::module_& m) {
       .def_property_readonly("faces", &faces_of,
                              "vertices of each face, counterclockwise seen from outside")
       .def_property_readonly("edges", &edges_of, "vertices at the two ends of each edge")
-      .def("__repr__", [](const Convex& c) { return show(c); })
+      .def("__repr__",
+           [](const Convex& c) {
+             return "Convex(" + std::to_string(c.hull->vertices.size()) + " vertices, " +
+                    std::to_string(c.hull->faces.size()) + " faces)";
+           })
       .def(py::pickle(
           [](const Convex& c) { return to_tuple(*c.hull); },
           [](const py::tuple& t) { return Convex{std::make_shared<const Hull>(to_hull(t))}; }));
 }
 
 void bind_shapes(py::module_& m) {
-  py::class_<Sphere>(m, "Sphere", "A ball about its frame's origin.")
-      .def(py::init([](double radius) { return Sphere{radius}; }), py::arg("radius"))
-      .def_readonly("radius", &Sphere::radius, "[m]")
-      .def("__repr__", [](const Sphere& s) { return show(s); })
-      .def(pickle_fields<Sphere, &Sphere::radius>());
-  py::class_<Capsule>(m, "Capsule",
-                      "All points within `radius` of the segment |z| <= `half_length`.")
-      .def(py::init([](double radius, double half_length) { return Capsule{radius, half_length}; }),
-           py::arg("radius"), py::arg("half_length"))
-      .def_readonly("radius", &Capsule::radius, "[m]")
-      .def_readonly("half_length", &Capsule::half_length, "[m] of the segment, without the caps")
-      .def("__repr__", [](const Capsule& c) { return show(c); })
-      .def(pickle_fields<Capsule, &Capsule::radius, &Capsule::half_length>());
-  py::class_<Box>(m, "Box", "|x| <= half[0], |y| <= half[1], |z| <= half[2].")
-      .def(py::init([](const Vec3& half) { return Box{half}; }), py::arg("half"))
-      .def_readonly("half", &Box::half, "[m] half-extents, shape (3,)")
-      .def("__repr__", [](const Box& b) { return show(b); })
-      .def(pickle_fields<Box, &Box::half>());
-  py::class_<Cylinder>(m, "Cylinder", "Axis z, |z| <= `half_length`.")
-      .def(
-          py::init([](double radius, double half_length) { return Cylinder{radius, half_length}; }),
-          py::arg("radius"), py::arg("half_length"))
-      .def_readonly("radius", &Cylinder::radius, "[m]")
-      .def_readonly("half_length", &Cylinder::half_length, "[m]")
-      .def("__repr__", [](const Cylinder& c) { return show(c); })
-      .def(pickle_fields<Cylinder, &Cylinder::radius, &Cylinder::half_length>());
-  py::class_<HalfSpace>(m, "HalfSpace",
-                        "The solid z <= 0 of its frame; only the root link may carry one.")
-      .def(py::init<>())
-      .def("__repr__", [](const HalfSpace& h) { return show(h); })
-      .def(pickle_fields<HalfSpace>());
-  py::class_<Ellipsoid>(m, "Ellipsoid", "(x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.")
-      .def(py::init([](const Vec3& radii) { return Ellipsoid{radii}; }), py::arg("radii"))
-      .def_readonly("radii", &Ellipsoid::radii, "[m] shape (3,)")
-      .def("__repr__", [](const Ellipsoid& e) { return show(e); })
-      .def(pickle_fields<Ellipsoid, &Ellipsoid::radii>());
+  bind_shape<Sphere, double>(m, "Sphere", "A ball about its frame's origin.",
+                             {&Sphere::radius, "radius", "[m]"});
+  bind_shape<Capsule, double, double>(
+      m, "Capsule", "All points within `radius` of the segment |z| <= `half_length`.",
+      {&Capsule::radius, "radius", "[m]"},
+      {&Capsule::half_length, "half_length", "[m] of the segment, without the caps"});
+  bind_shape<Box, Vec3>(m, "Box", "|x| <= half[0], |y| <= half[1], |z| <= half[2].",
+                        {&Box::half, "half", "[m] half-extents, shape (3,)"});
+  bind_shape<Cylinder, double, double>(m, "Cylinder", "Axis z, |z| <= `half_length`.",
+                                       {&Cylinder::radius, "radius", "[m]"},
+                                       {&Cylinder::half_length, "half_length", "[m]"});
+  bind_shape<HalfSpace>(m, "HalfSpace",
+                        "The solid z <= 0 of its frame; only the root link may carry one.");
+  bind_shape<Ellipsoid, Vec3>(m, "Ellipsoid",
+                              "(x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.",
+                              {&Ellipsoid::radii, "radii", "[m] shape (3,)"});
   bind_convex(m);
 }
 
@@ -192,9 +182,7 @@ void bind_gap(py::module_& m) {
   m.def("has_gap", &has_gap, "True where `gap` knows the two kinds of shape, in either order.",
         py::arg("a"), py::arg("b"));
   m.def("gap_table", &gap_table, gap_table_doc);
-  m.def("shape_name", &shape_name,
-        "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"half_space\", \"ellipsoid\" or "
-        "\"convex\".",
+  m.def("shape_name", &shape_name, "As in `gap_table`: \"sphere\", \"half_space\".",
         py::arg("shape"));
 }
 
@@ -206,11 +194,11 @@ void bind_collision(py::module_& m) {
   py::class_<PlacedShape>(m, "PlacedShape", placed_shape_doc)
       .def_readonly("name", &PlacedShape::name,
                     "the link's name, \"#k\" added where a link has several")
-      .def_readonly("shape", &PlacedShape::shape,
-                    "Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex")
+      .def_readonly("shape", &PlacedShape::shape, "one of the classes of `Shape`")
       .def_readonly("link", &PlacedShape::link, "index of its link in the model's `links`")
       .def("__repr__", [](const PlacedShape& s) {
-        return "PlacedShape('" + s.name + "', " + show(s.shape) + ")";
+        return "PlacedShape('" + s.name + "', " + py::repr(py::cast(s.shape)).cast<std::string>() +
+               ")";
       });
   py::class_<Pair>(m, "Pair", pair_doc)
       .def_readonly("a", &Pair::a, "index in the model's `shapes`")

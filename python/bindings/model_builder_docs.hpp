@@ -97,7 +97,7 @@ It has the name of its link; the second shape of a link has "#2" added, and so o
 Parameters
 ----------
 link : str
-shape : Sphere, Capsule, Box, Cylinder or HalfSpace
+shape : Shape
 X_LG : Pose
     The shape's frame in the link's frame.
 

@@ -9,7 +9,7 @@ Parameters
 ----------
 mass : float
     [kg]
-shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+shape : Shape
 
 Returns
 -------
@@ -31,7 +31,7 @@ constexpr auto volume = R"(Volume of a shape.
 
 Parameters
 ----------
-shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+shape : Shape
 
 Returns
 -------
@@ -53,7 +53,7 @@ Parameters
 ----------
 name : str
     Of the link.
-shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+shape : Shape
 mass : float, optional
     [kg] give this or `density`; a body on a fixed joint may have neither.
 density : float, optional

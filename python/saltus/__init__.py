@@ -86,6 +86,9 @@ from saltus.runs.simulate import StepWarning, simulate
 from saltus.runs.trajectory import Trajectory, load
 from saltus.urdf import ModelWarning, load_urdf
 
+Shape = Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex
+"""What can touch: any of these classes."""
+
 __all__ = [
     "AdjacentLinks",
     "BatchTrajectory",
@@ -126,6 +129,7 @@ __all__ = [
     "Pair",
     "PlacedShape",
     "Pose",
+    "Shape",
     "Sphere",
     "State",
     "StepError",

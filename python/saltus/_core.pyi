@@ -330,7 +330,7 @@ class Sphere:
     """
     A ball about its frame's origin.
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(self) -> tuple[float]: ...
     def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -344,7 +344,7 @@ class Capsule:
     """
     All points within `radius` of the segment |z| <= `half_length`.
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(self) -> tuple[float, float]: ...
     def __init__(
         self,
         radius: typing.SupportsFloat | typing.SupportsIndex,
@@ -367,7 +367,9 @@ class Box:
     """
     |x| <= half[0], |y| <= half[1], |z| <= half[2].
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]: ...
     def __init__(
         self, half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
@@ -383,7 +385,7 @@ class Cylinder:
     """
     Axis z, |z| <= `half_length`.
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(self) -> tuple[float, float]: ...
     def __init__(
         self,
         radius: typing.SupportsFloat | typing.SupportsIndex,
@@ -406,7 +408,7 @@ class HalfSpace:
     """
     The solid z <= 0 of its frame; only the root link may carry one.
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(self) -> tuple[()]: ...
     def __init__(self) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -415,7 +417,9 @@ class Ellipsoid:
     """
     (x/radii[0])^2 + (y/radii[1])^2 + (z/radii[2])^2 <= 1.
     """
-    def __getstate__(self) -> tuple: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]: ...
     def __init__(
         self, radii: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
@@ -514,7 +518,7 @@ class PlacedShape:
     @property
     def shape(self) -> Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex:
         """
-        Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
+        one of the classes of `Shape`
         """
 
 class Pair:
@@ -1339,7 +1343,7 @@ class ModelBuilder:
         ----------
         name : str
             Of the link.
-        shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+        shape : Shape
         mass : float, optional
             [kg] give this or `density`; a body on a fixed joint may have neither.
         density : float, optional
@@ -1518,7 +1522,7 @@ class ModelBuilder:
         Parameters
         ----------
         link : str
-        shape : Sphere, Capsule, Box, Cylinder or HalfSpace
+        shape : Shape
         X_LG : Pose
             The shape's frame in the link's frame.
 
@@ -2454,7 +2458,7 @@ def gap(
 
     Parameters
     ----------
-    a, b : Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid or Convex
+    a, b : Shape
     X_WA, X_WB : Pose
         Where they are.
 
@@ -2702,7 +2706,7 @@ def rotation_from_rpy(
 
 def shape_name(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex) -> str:
     """
-    "sphere", "capsule", "box", "cylinder", "half_space", "ellipsoid" or "convex".
+    As in `gap_table`: "sphere", "half_space".
     """
 
 def simulate(
@@ -2845,7 +2849,7 @@ def solid_inertia(
     ----------
     mass : float
         [kg]
-    shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+    shape : Shape
 
     Returns
     -------
@@ -2917,7 +2921,7 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
 
     Parameters
     ----------
-    shape : Sphere, Capsule, Box, Cylinder, Ellipsoid or Convex
+    shape : Shape
 
     Returns
     -------

@@ -139,7 +139,7 @@ def test_pictures_of_pairs(tmp_path):
 def test_facets_close_and_look_outwards(kind):
     from saltus.plots import pairs as plots_pairs
 
-    facets = plots_pairs.FACETS[type(SHAPES[kind])](SHAPES[kind])
+    facets = plots_pairs.facets_of(SHAPES[kind])
     normals = plots_pairs._normals(facets)
     for corners, n in zip(facets, normals, strict=True):
         assert n @ corners.mean(axis=0) > 0 or not n.any()

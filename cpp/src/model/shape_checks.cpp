@@ -1,97 +1,16 @@
 #include "model/shape_checks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
+#include "collision/shapes/facts.hpp"
 #include "saltus/error.hpp"
 
 namespace saltus {
-namespace {
-
-std::string show(const Vec3& x) {
-  std::ostringstream text;
-  text << "(" << x[0] << " " << x[1] << " " << x[2] << ")";
-  return text.str();
-}
-
-bool positive(const Vec3& size) { return size.allFinite() && (size.array() > 0).all(); }
-
-bool below(int index, std::size_t count) {
-  return index >= 0 && static_cast<std::size_t>(index) < count;
-}
-
-/// One of the hull's faces, edges or rows that cannot be; "" where all is well. Cheap: it does not
-/// look whether the solid is convex.
-std::string flaw(const Hull& hull) {
-  const std::size_t V = hull.vertices.size(), E = hull.edges.size(), F = hull.faces.size();
-  if (V < 4 || V + F != E + 2) {
-    return std::to_string(V) + " vertices, " + std::to_string(E) + " edges and " +
-           std::to_string(F) + " faces make no polytope";
-  }
-  for (const Vec3& v : hull.vertices) {
-    if (!v.allFinite()) return "a vertex is not finite: " + show(v);
-  }
-  for (const Hull::Face& face : hull.faces) {
-    const bool unit = std::abs(face.normal.norm() - 1) < 1e-9;
-    if (!unit) return "a face has normal " + show(face.normal) + ", which is no unit vector";
-    const auto is_vertex = [&](int corner) { return below(corner, V); };
-    if (face.corners.size() < 3 ||
-        !std::all_of(face.corners.begin(), face.corners.end(), is_vertex)) {
-      return "the corners of a face are not three or more of its " + std::to_string(V) +
-             " vertices";
-    }
-    if (!(face.normal.dot(hull.center) < face.offset)) {
-      return "its center " + show(hull.center) + " is not below a face";
-    }
-  }
-  for (const Hull::Edge& e : hull.edges) {
-    if (!below(e.from, V) || !below(e.to, V) || !below(e.left, F) || !below(e.right, F)) {
-      return "an edge names a vertex or a face that does not exist";
-    }
-  }
-  const bool rows =
-      hull.first_neighbour.size() == V + 1 && hull.first_neighbour.front() == 0 &&
-      std::is_sorted(hull.first_neighbour.begin(), hull.first_neighbour.end()) &&
-      hull.first_neighbour.back() == static_cast<int>(2 * E) && hull.neighbour.size() == 2 * E &&
-      std::all_of(hull.neighbour.begin(), hull.neighbour.end(), [&](int v) { return below(v, V); });
-  return rows ? "" : "its lists of neighbours do not fit its edges";
-}
-
-/// What is wrong with a shape; "" where nothing is.
-struct Flaw {
-  static std::string size(const Vec3& size, bool good) {
-    return good ? "" : "of size " + show(size) + "; sizes are finite and positive";
-  }
-  static std::string size(const Vec3& of) { return size(of, positive(of)); }
-
-  std::string operator()(const Sphere& s) const { return size(Vec3::Constant(s.radius)); }
-  std::string operator()(const Capsule& c) const {  // of length 0 it is a ball
-    return size({c.radius, c.radius, c.half_length},
-                positive({c.radius, c.radius, c.half_length == 0 ? 1 : c.half_length}));
-  }
-  std::string operator()(const Box& b) const { return size(b.half); }
-  std::string operator()(const Cylinder& c) const {
-    return size({c.radius, c.radius, c.half_length});
-  }
-  std::string operator()(const HalfSpace&) const { return ""; }
-  std::string operator()(const Ellipsoid& e) const { return size(e.radii); }
-  std::string operator()(const Convex& c) const {
-    if (c.hull == nullptr) return "without a hull; convex_hull(points) makes one";
-    const std::string what = flaw(*c.hull);
-    return what.empty() ? "" : "with a bad hull: " + what + "; convex_hull(points) makes good ones";
-  }
-};
-
-}  // namespace
 
 void check_shape(const Shape& shape, const std::string& link) {
-  const std::string what = std::visit(Flaw{}, shape);
+  const std::string what = flaw(shape), name = shape_name(shape);
   if (what.empty()) return;
-  const bool vowel = std::holds_alternative<Ellipsoid>(shape);
-  throw ModelError(
-      "link \"" + link + "\" has " + (vowel ? "an " : "a ") + shape_name(shape) + " " + what,
-      "link", link);
+  const bool vowel = std::string("aeiou").find(name[0]) != std::string::npos;
+  throw ModelError("link \"" + link + "\" has " + (vowel ? "an " : "a ") + name + " " + what,
+                   "link", link);
 }
 
 }  // namespace saltus

@@ -5,6 +5,7 @@
 
 #include "urdf/attributes.hpp"
 #include "urdf/numbers.hpp"
+#include "urdf/shape_elements.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -158,13 +159,8 @@ void add(const Document& document, const XMLElement& element, NamesOf& of, Model
   const std::string kind = element.Name();
   if (kind == "half_space") {
     add_half_space(document, element, builder);
-  } else if (kind == "capsule") {
-    builder.add_shape(link(document, element, "link"),
-                      Capsule{number(element, "radius", 0), 0.5 * number(element, "length", 0)},
-                      origin(element));
-  } else if (kind == "ellipsoid") {
-    builder.add_shape(link(document, element, "link"),
-                      Ellipsoid{vector(element, "radii", Vec3::Zero())}, origin(element));
+  } else if (const ShapeElement* shape = shape_in_block(kind)) {
+    builder.add_shape(link(document, element, "link"), shape->read(element), origin(element));
   } else if (kind == "exclude") {
     add_exclusion(document, element, builder);
   } else if (kind == "adjacent_links") {

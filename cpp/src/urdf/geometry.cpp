@@ -3,6 +3,7 @@
 #include "urdf/attributes.hpp"
 #include "urdf/mesh_path.hpp"
 #include "urdf/rewrite.hpp"
+#include "urdf/shape_elements.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -10,23 +11,6 @@ namespace {
 const XMLElement* mesh_of(const XMLElement& collision_or_visual) {
   const XMLElement* geometry = collision_or_visual.FirstChildElement("geometry");
   return geometry == nullptr ? nullptr : geometry->FirstChildElement("mesh");
-}
-
-/// `is_capsule`: written as a cylinder for urdfdom's sake.
-Shape shape(const urdf::Geometry& geometry, bool is_capsule) {
-  switch (geometry.type) {
-    case urdf::Geometry::SPHERE:
-      return Sphere{dynamic_cast<const urdf::Sphere&>(geometry).radius};
-    case urdf::Geometry::BOX: {
-      const urdf::Vector3& size = dynamic_cast<const urdf::Box&>(geometry).dim;
-      return Box{0.5 * Vec3(size.x, size.y, size.z)};
-    }
-    default:
-      break;
-  }
-  const auto& cylinder = dynamic_cast<const urdf::Cylinder&>(geometry);
-  if (is_capsule) return Capsule{cylinder.radius, 0.5 * cylinder.length};
-  return Cylinder{cylinder.radius, 0.5 * cylinder.length};
 }
 
 }  // namespace
@@ -49,10 +33,8 @@ void add_shapes(const XMLElement& link, const urdf::Link& parsed, CollisionMeshe
         throw ModelError("urdfdom dropped a collision of link " + in_quotes(parsed.name), "link",
                          parsed.name);
       }
-      const urdf::Collision& collision = **next++;
-      builder.add_shape(parsed.name,
-                        shape(*collision.geometry, usable->Name() == std::string("capsule")),
-                        pose(collision.origin));
+      builder.add_shape(parsed.name, shape_in_geometry(usable->Name())->read(*usable),
+                        pose((*next++)->origin));
     }
   }
 }

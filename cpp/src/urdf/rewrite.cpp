@@ -5,6 +5,7 @@
 #include "urdf/checks.hpp"
 #include "urdf/numbers.hpp"
 #include "urdf/schema.hpp"
+#include "urdf/shape_elements.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -76,12 +77,20 @@ void write_limit(XMLPrinter& printer, const XMLElement& limit) {
   }
 }
 
+/// Shapes are read from the document: urdfdom knows but few, and only counts them.
+void write_stand_in(XMLPrinter& printer) {
+  printer.OpenElement("sphere");
+  printer.PushAttribute("radius", "1");
+  printer.CloseElement();
+}
+
 void write(XMLPrinter& printer, const XMLElement& element, const ElementRule& rule) {
   const std::string name = rule.name;
   if (name == "collision" && usable_shape(element) == nullptr) return;
   const bool has_dynamics = element.Attribute("damping") || element.Attribute("friction");
   if (name == "dynamics" && !has_dynamics) return;  // urdfdom would refuse it
-  printer.OpenElement(name == "capsule" ? "cylinder" : name.c_str());
+  if (shape_in_geometry(name) != nullptr) return write_stand_in(printer);
+  printer.OpenElement(name.c_str());
   if (name == "joint") {
     write_joint(printer, element, rule);
   } else if (name == "limit") {
@@ -104,11 +113,7 @@ Mat3 rotation_from_quaternion(const std::vector<double>& xyzw) {
 const XMLElement* usable_shape(const XMLElement& collision) {
   const XMLElement* geometry = collision.FirstChildElement("geometry");
   const XMLElement* shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
-  if (shape == nullptr) return nullptr;
-  for (const std::string name : {"sphere", "box", "cylinder", "capsule"}) {
-    if (shape->Name() == name) return shape;
-  }
-  return nullptr;
+  return shape == nullptr || shape_in_geometry(shape->Name()) == nullptr ? nullptr : shape;
 }
 
 std::string rewrite(const Document& document) {

@@ -1,5 +1,7 @@
 #include "urdf/schema.hpp"
 
+#include "urdf/shape_elements.hpp"
+
 namespace saltus::reader {
 namespace {
 
@@ -27,16 +29,13 @@ ElementRule inertial() {
 }
 
 ElementRule geometry() {
-  const NumberRule radius = {"radius", 1, required, positive};
-  const NumberRule length = {"length", 1, required, positive};
-  return {
-      .name = "geometry",
-      .occurs = Occurs::at_most_once,
-      .children = {{.name = "sphere", .numbers = {radius}},
-                   {.name = "box", .numbers = {{"size", 3, required, positive}}},
-                   {.name = "cylinder", .numbers = {radius, length}},
-                   {.name = "capsule", .numbers = {radius, length}},
-                   {.name = "mesh", .numbers = {{"scale", 3}}, .texts = {{"filename", required}}}}};
+  ElementRule rule = {.name = "geometry", .occurs = Occurs::at_most_once};
+  for (const ShapeElement& shape : shape_elements()) {
+    if (shape.in_geometry) rule.children.push_back({.name = shape.name, .numbers = shape.sizes});
+  }
+  rule.children.push_back(
+      {.name = "mesh", .numbers = {{"scale", 3}}, .texts = {{"filename", required}}});
+  return rule;
 }
 
 ElementRule link() {
@@ -77,35 +76,30 @@ ElementRule joint() {
 }
 
 ElementRule extension() {
-  return {
-      .name = "saltus",
-      .children =
-          {{.name = "half_space",
-            .numbers = {{"normal", 3}, {"offset"}},
-            .texts = {{"name"}},
-            .strict = true},
-           {.name = "capsule",
-            .numbers = {{"radius", 1, required, positive}, {"length", 1, required, positive}},
-            .texts = {{"link", required}},
-            .children = {origin()},
-            .strict = true},
-           {.name = "ellipsoid",
-            .numbers = {{"radii", 3, required, positive}},
-            .texts = {{"link", required}},
-            .children = {origin()},
-            .strict = true},
-           {.name = "mesh", .texts = {{"link", required}, {"use", required}}, .strict = true},
-           {.name = "exclude",
-            .texts = {{"link1"}, {"link2"}, {"group1"}, {"group2"}},
-            .strict = true},
-           {.name = "group", .texts = {{"name", required}, {"links", required}}, .strict = true},
-           {.name = "material", .texts = {{"name", required}, {"links", required}}, .strict = true},
-           {.name = "contact",
-            .numbers = {{"restitution"}, {"friction"}},
-            .texts = {{"material1"}, {"material2"}},
-            .strict = true},
-           {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}},
-      .strict = true};
+  std::vector<ElementRule> children = {{.name = "half_space",
+                                        .numbers = {{"normal", 3}, {"offset"}},
+                                        .texts = {{"name"}},
+                                        .strict = true}};
+  for (const ShapeElement& shape : shape_elements()) {
+    if (!shape.in_block) continue;
+    children.push_back({.name = shape.name,
+                        .numbers = shape.sizes,
+                        .texts = {{"link", required}},
+                        .children = {origin()},
+                        .strict = true});
+  }
+  const std::vector<ElementRule> others = {
+      {.name = "mesh", .texts = {{"link", required}, {"use", required}}, .strict = true},
+      {.name = "exclude", .texts = {{"link1"}, {"link2"}, {"group1"}, {"group2"}}, .strict = true},
+      {.name = "group", .texts = {{"name", required}, {"links", required}}, .strict = true},
+      {.name = "material", .texts = {{"name", required}, {"links", required}}, .strict = true},
+      {.name = "contact",
+       .numbers = {{"restitution"}, {"friction"}},
+       .texts = {{"material1"}, {"material2"}},
+       .strict = true},
+      {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}};
+  children.insert(children.end(), others.begin(), others.end());
+  return {.name = "saltus", .children = children, .strict = true};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from math import ceil, cos, pi, sin
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,6 @@ from saltus._core import (
     Capsule,
     Convex,
     Cylinder,
-    Ellipsoid,
     HalfSpace,
     Pose,
     Sphere,
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-Shape: TypeAlias = Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex
+Shape: TypeAlias = Any  # saltus.Shape: a room above this one
 Facets: TypeAlias = list[Array]  # corners, (k, 3), counterclockwise seen from outside
 
 ELEVATION = 0.35  # [rad] the viewer looks along +y, from this much above
@@ -155,7 +154,7 @@ def _draw_shape(axes: Axes, shape: Shape, X: Pose, colour: tuple[float, float, f
     from matplotlib.collections import PolyCollection
 
     flat = isinstance(shape, HalfSpace)
-    facets = [corners @ X.R.T + X.p for corners in FACETS[type(shape)](shape)]
+    facets = [corners @ X.R.T + X.p for corners in facets_of(shape)]
     outward = _normals(facets)
     (seen,) = np.nonzero(outward @ TOWARDS > 1e-9)
     light = 0.62 + 0.38 * np.maximum(0, outward[seen] @ LIGHT)
@@ -217,10 +216,6 @@ def _cylinder(shape: Cylinder) -> Facets:
     return _revolved([(shape.radius, -shape.half_length), (shape.radius, shape.half_length)])
 
 
-def _ellipsoid(shape: Ellipsoid) -> Facets:
-    return [np.asarray(corners * shape.radii) for corners in _revolved(_arc(1, 0, -pi / 2, pi / 2))]
-
-
 def _box(shape: Box) -> Facets:
     face = np.array([[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1]])
     faces = [np.roll(face, k, axis=1) for k in range(3)]
@@ -231,8 +226,25 @@ def _convex(shape: Convex) -> Facets:
     return [shape.vertices[face] for face in shape.faces]
 
 
+def _hull(shape: Shape) -> Facets:
+    """Return the facets of any shape with an end, by its points farthest from half-spaces."""
+    points = []
+    for r, z in _arc(1, 0, -pi / 2, pi / 2):
+        for angle in 2 * pi * np.arange(AROUND) / AROUND:
+            across = np.array([-sin(angle), cos(angle), 0])
+            normal = np.array([r * cos(angle), r * sin(angle), z])
+            plane = Pose(np.zeros(3), np.stack([across, np.cross(normal, across), normal], axis=1))
+            points.append(gap(shape, Pose(), HalfSpace(), plane).p_WA)
+    return _convex(Convex(points))
+
+
 def _half_space(_: HalfSpace) -> Facets:
     return [PLANE * np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])]
+
+
+def facets_of(shape: Shape) -> Facets:
+    """Return what is drawn of a shape, in its frame."""
+    return FACETS.get(type(shape), _hull)(shape)
 
 
 FACETS: dict[type, Callable[..., Facets]] = {
@@ -241,6 +253,5 @@ FACETS: dict[type, Callable[..., Facets]] = {
     Box: _box,
     Cylinder: _cylinder,
     HalfSpace: _half_space,
-    Ellipsoid: _ellipsoid,
     Convex: _convex,
 }

@@ -1,24 +1,12 @@
 // The gap between two shapes: signed distance, normal, witness points and curvature.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "saltus/collision/shapes.hpp"
 
 namespace saltus {
-
-/// Where the witness of a shape can move, to second order: the feature of the shape's core (the
-/// point or segment that a round shape is swept about, the whole of another) that is nearest.
-struct Patch {
-  int dim = 0;  ///< 0 a point (corner, centre, end), 1 a curve (edge, axis, rim), 2 a surface
-  Vec3 t0 = Vec3::Zero();  ///< the first `dim` valid: unit tangents, orthogonal, across n; in the
-  Vec3 t1 = Vec3::Zero();  ///< world
-  double k00 = 0;          ///< [1/m] n.x_00, n.x_01, n.x_11 of the core x along t0 and t1:
-  double k01 = 0;          ///< not below 0 on a, not above 0 on b (both are convex)
-  double k11 = 0;
-};
 
 /// Invariants: p_WA - p_WB = phi n_W, |n_W| = 1, n from b to a; phi < 0 is penetration.
 /// Exchanging the shapes exchanges witnesses and patches and turns n round, and changes nothing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "saltus/collision/shapes.hpp"
@@ -28,22 +29,48 @@ struct PlacedShape : Placed {
   std::string name;  ///< unique: the link's name, "#k" added where a link has several shapes
 };
 
-/// How the gap of a pair is found; see parts.hpp.
-enum class PairKind {
-  whole,     ///< the signed distance of two solids
-  corner,    ///< that of a corner or end of one of them, which is a, from the other
-  crossing,  ///< that of two edges, where they cross; nothing where they do not
-};
+// How the gap of a pair is found; see parts.hpp. What is `out` goes out of the shape, in the part's
+// frame: of an edge between its two faces, with n.out >= 1 for all n from one's normal to the
+// other's; along the axis for a rim and its points; 0 for an axis.
 
-/// Which place of a cylinder's rims a part is about.
-enum class RimPart {
-  none,
-  nearest,  ///< of one rim, against all of the other shape
-  in,       ///< where an edge goes in over a rim: seen along its own axis
-  out,      ///< where it comes out
-  left,     ///< where two rims cross that lie flat on each other: one place
-  right,    ///< and the other
+/// The signed distance of two solids.
+struct Whole {
+  bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
 };
+/// That of a corner or end of a from b.
+struct Corner {
+  Vec3 out;
+};
+/// That of two edges, where they cross; nothing where they do not.
+struct Crossing {
+  Vec3 out_a, out_b;
+};
+/// That of a rim of a cylinder, which is a disc, from all of b.
+struct Rim {
+  Vec3 out;
+  bool lists_edges = false;  ///< those of the two shapes have gaps of their own where they cross
+};
+/// That of the rims of a cylinder, which is all of a, and an edge or the rims of b, at one place.
+struct RimCrossing {
+  enum class Place {
+    in,     ///< where an edge goes in over a rim: seen along its own axis
+    out,    ///< where it comes out
+    left,   ///< where two rims cross that lie flat on each other: one place
+    right,  ///< and the other
+  };
+  Place place;
+  Vec3 out_b;
+};
+using PartKind = std::variant<Whole, Corner, Crossing, Rim, RimCrossing>;
+
+/// What a kind is to a step: whether one has a gap everywhere, how it is held.
+enum class PairKind { whole, corner, crossing };
+
+inline bool operator==(const PartKind& kind, PairKind other) {
+  constexpr PairKind kinds[] = {PairKind::whole, PairKind::corner, PairKind::crossing,
+                                PairKind::whole, PairKind::crossing};
+  return kinds[kind.index()] == other;
+}
 
 /// epsilon_phi by the size of the smaller shape: far above the rounding of positions (1e-16 of the
 /// scene) and far below what anybody can see.
@@ -53,17 +80,10 @@ inline constexpr double relative_touch = 1e-10;
 struct Pair {
   int a = -1, b = -1;  ///< indices of shapes
   int part = 0;        ///< which of the gaps of these two shapes
-  PairKind kind = PairKind::whole;
-  Placed on_a, on_b;            ///< the parts that face each other; b alone may be a half-space
-  RimPart rim = RimPart::none;  ///< not none: a is the cylinder
-  /// Out of the shape, in the part's frame: of an edge between its two faces, with n.out >= 1 for
-  /// all n from one's normal to the other's; along the axis for a rim
-  /// and its points; 0 for an axis.
-  Vec3 out_a = Vec3::Zero(), out_b = Vec3::Zero();
-  std::vector<Vec3> inward;    ///< corner, rim: along the edges that meet in it, in its frame; none
-                               ///< where it is round or the other has no flat faces
-  bool lists_edges = false;    ///< those of the two shapes have gaps of their own where they cross
-  bool skips_corners = false;  ///< corners have gaps of their own: none where one is nearest
+  PartKind kind;
+  Placed on_a, on_b;         ///< the parts that face each other; b alone may be a half-space
+  std::vector<Vec3> inward;  ///< corner, rim: along the edges that meet in it, in its frame; none
+                             ///< where it is round or the other has no flat faces
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
 };

@@ -10,35 +10,43 @@
 namespace saltus {
 
 struct Sphere {
+  static constexpr const char* name = "sphere";
   double radius;
 };
 /// All points within `radius` of the segment z in [-half_length, half_length].
 struct Capsule {
+  static constexpr const char* name = "capsule";
   double radius, half_length;
 };
 /// |x| <= half.x, |y| <= half.y, |z| <= half.z.
 struct Box {
+  static constexpr const char* name = "box";
   Vec3 half;
 };
 /// Axis z, |z| <= half_length.
 struct Cylinder {
+  static constexpr const char* name = "cylinder";
   double radius, half_length;
 };
 /// The solid z <= 0; its normal is the frame's z axis. Fixed to the world.
-struct HalfSpace {};
+struct HalfSpace {
+  static constexpr const char* name = "half_space";
+};
 
 /// (x/radii.x)^2 + (y/radii.y)^2 + (z/radii.z)^2 <= 1.
 struct Ellipsoid {
+  static constexpr const char* name = "ellipsoid";
   Vec3 radii;
 };
 /// Shared between copies; never null in a model.
 struct Convex {
+  static constexpr const char* name = "convex";
   std::shared_ptr<const Hull> hull;
 };
 
 using Shape = std::variant<Sphere, Capsule, Box, Cylinder, HalfSpace, Ellipsoid, Convex>;
 
-/// "sphere", "capsule", "box", "cylinder", "half_space", "ellipsoid", "convex".
+/// "half_space": the name of the one that it is.
 SALTUS_EXPORT std::string shape_name(const Shape& shape);
 
 /// [m] radius of the ball about the shape's origin that holds it; infinity for a half-space.
@@ -47,5 +55,16 @@ SALTUS_EXPORT double bounding_radius(const Shape& shape);
 /// [m] a length typical of the shape, for tolerances: its smallest half-extent; infinity for a
 /// half-space.
 SALTUS_EXPORT double feature_size(const Shape& shape);
+
+/// Where the witness of a shape can move, to second order: the feature of the shape's core (the
+/// point or segment that a round shape is swept about, the whole of another) that is nearest.
+struct Patch {
+  int dim = 0;  ///< 0 a point (corner, centre, end), 1 a curve (edge, axis, rim), 2 a surface
+  Vec3 t0 = Vec3::Zero();  ///< the first `dim` valid: unit tangents, orthogonal, across n; in the
+  Vec3 t1 = Vec3::Zero();  ///< world
+  double k00 = 0;          ///< [1/m] n.x_00, n.x_01, n.x_11 of the core x along t0 and t1:
+  double k01 = 0;          ///< not below 0 on a, not above 0 on b (both are convex)
+  double k11 = 0;
+};
 
 }  // namespace saltus

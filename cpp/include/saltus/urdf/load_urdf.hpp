@@ -4,14 +4,13 @@
 // closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
 // 1.2 are read alike. Beyond URDF:
 //   * joints of type "spherical" or "ball": a unit quaternion;
-//   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is the cylinder's, along
-//     z, without the two half balls;
+//   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is that along z without the
+//     two half balls;
 //   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
 //   * a block `<saltus>` below `<robot>`, which other readers skip:
 //       <half_space name="floor" normal="0 0 1" offset="0"/>    solid where normal.x <= offset
 //       <capsule link="arm" radius="0.03" length="0.3"> <origin xyz="0 0 0" rpy="0 0 0"/>
-//       </capsule>
-//       <ellipsoid link="arm" radii="0.1 0.2 0.3"/>                        an <origin> as above
+//       </capsule>                             and other shapes, listed in urdf/shape_elements.cpp
 //       <mesh link="arm" use="none"/>              its collision meshes are not used (hull: are)
 //       <exclude link1="a" link2="b"/>                      no gap is watched between these
 //       <group name="pins" links="pin_1 pin_2"/>            a link is in one group at most

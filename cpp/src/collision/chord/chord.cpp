@@ -19,9 +19,8 @@
 #include <limits>
 
 #include "collision/chord/chord_path.hpp"
-#include "collision/gap/core.hpp"
-#include "collision/parts/crossing.hpp"
-#include "collision/parts/rim_crossing.hpp"
+#include "collision/parts/kinds.hpp"
+#include "collision/shapes/facts.hpp"
 
 namespace saltus {
 namespace {
@@ -118,14 +117,13 @@ double certified_advance(const Chord& chord, double g, const ChordSample& x,
   return d;
 }
 
-bool has_cylinder(const Pair& pair) {
-  return std::holds_alternative<Cylinder>(pair.on_a.shape) ||
-         std::holds_alternative<Cylinder>(pair.on_b.shape);
+bool has_rims(const Pair& pair) {
+  return part_counts(pair.on_a.shape).rims + part_counts(pair.on_b.shape).rims > 0;
 }
 
 /// The floor that a pair can reach: edges of solids meet at 0.
 double reachable(const Pair& pair, double floor) {
-  if (pair.kind != PairKind::crossing || has_cylinder(pair)) return floor;
+  if (pair.kind != PairKind::crossing || has_rims(pair)) return floor;
   const double radii = core_radius(pair.on_a.shape) + core_radius(pair.on_b.shape);
   return std::fmax(floor, -radii);
 }
@@ -163,8 +161,9 @@ ChordHit search_at_cylinder(Chord chord, double floor) {
   const double around = distance_around_cylinder(chord.pair, X_BA, {});
   if (around - first_bounds(chord).mu > floor) return {ChordHit::Outcome::clear, 1};
   NearRim near;
-  if (chord.pair.rim == RimPart::none) return search(chord, floor);
-  if (!near_rim(chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
+  const auto* crossing = std::get_if<RimCrossing>(&chord.pair.kind);
+  if (crossing == nullptr) return search(chord, floor);
+  if (!near_rim(*crossing, chord.pair, X_BA, near)) return {ChordHit::Outcome::clear, 1};
   (near.of_a ? chord.part_a : chord.part_b) = &near.part;
   return search(chord, floor);
 }
@@ -179,7 +178,7 @@ ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q,
                             double floor) {
   const Chord chord{tree, pair, q, dq};
   floor = reachable(pair, floor);
-  const bool at_cylinder = pair.kind == PairKind::crossing && has_cylinder(pair);
+  const bool at_cylinder = pair.kind == PairKind::crossing && has_rims(pair);
   return at_cylinder ? search_at_cylinder(chord, floor) : search(chord, floor);
 }
 

@@ -28,7 +28,7 @@
 #include <cmath>
 
 #include "collision/chord/chord_path.hpp"
-#include "collision/gap/core.hpp"
+#include "collision/shapes/facts.hpp"
 
 namespace saltus {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "collision/parts/crossing.hpp"
+#include "collision/parts/kinds.hpp"
 
 namespace saltus {
 namespace {
@@ -61,9 +61,7 @@ Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair, const Ve
 }
 
 bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap) {
-  if (pair.kind == PairKind::corner && pair.out_a.isZero(0)) return false;
-  if (pair.kind == PairKind::whole && pair.rim == RimPart::none && !pair.skips_corners)
-    return false;
+  if (!may_be_silent(pair)) return false;
   const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin
   return is_silent(pair, pose_from(tree, kin, pair.on_a, none),
                    pose_from(tree, kin, pair.on_b, none), gap);

@@ -72,7 +72,7 @@ void search_from(const Vec3& first, Search& search) {
   start.past = (start.a.x - start.b.x - start.d * start.n).norm();
   if (search.best.n.isZero(0) || start.s > search.best.s) search.best = start;
   Nearby a, b;
-  const bool curved = search.A.curved() || search.B.curved();
+  const bool curved = search.A.curved || search.B.curved;
   double width = curved ? 0.02 : 1e-3;
   for (int round = 0; round < 5 && !search.found; ++round) {
     const Vec3 n = search.best.n;
@@ -89,7 +89,7 @@ Gap convex_gap(const Solid& a, const Solid& b, const Vec3& origin) {
   Search search{a, b, 2e-15 * (a.length + b.length + (a.p - b.p).norm()), {}};
   search.best.n = Vec3::Zero();
   // polytopes are reached; curved ones only approached, and Newton goes on from there if it can
-  const bool curved = a.curved() || b.curved();
+  const bool curved = a.curved || b.curved;
   for (const double tolerance : {curved ? 1e-7 : 1e-14, 1e-14}) {
     const auto apart = direction_apart(a, b, tolerance);
     if (!apart || search.found) break;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "collision/convex/solid.hpp"
+#include "collision/shapes/features.hpp"
+#include "saltus/collision/gap.hpp"
 
 namespace saltus {
 

@@ -103,7 +103,7 @@ Vec3 direction_through(const Solid& a, const Solid& b) {
   if (!start(a, b, P)) return Vec3::UnitZ();
   const double length = a.length + b.length;
   // polytopes are met exactly; Newton goes on with curved ones
-  const double tolerance = (a.curved() || b.curved() ? 1e-6 : 2e-15) * length;
+  const double tolerance = (a.curved || b.curved ? 1e-6 : 2e-15) * length;
   Vec3 best_n = Vec3::UnitZ();
   double best = 1e300;
   while (P.corners < most_corners && P.faces > 0) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "collision/convex/solid.hpp"
+#include "collision/shapes/features.hpp"
 
 namespace saltus {
 

@@ -2,25 +2,20 @@
 //
 // Those are corners of one within the other, and crossings of their outlines. Each is a pair of
 // features that do not share a straight direction, which M of curvature.cpp needs. A disc has its
-// circle as outline; of a disc within the other the points on its axes count as corners, which stay
-// on the disc where it turns.
+// circle as outline.
 #include <algorithm>
 #include <cmath>
 
 #include "collision/convex/meeting.hpp"
-#include "collision/gap/point_distance.hpp"
+#include "collision/shapes/point_distance.hpp"
 
 namespace saltus {
 namespace {
 
-using Kind = Feature::Kind;
-
-bool is_disc(const Flat& f) { return f.kind == Flat::Kind::disc; }
-
 /// [m] how far x is out of the flat, seen along n; not above 0 within.
 double outside(const Flat& f, const Vec3& x, const Vec3& n) {
   const auto seen = [&](const Vec3& v) { return Vec3(v - n.dot(v) * n); };
-  if (is_disc(f)) return seen(x - f.center).norm() - f.radius;
+  if (f.is_disc()) return seen(x - f.center).norm() - f.radius;
   if (f.corners == 1) return seen(x - f.at(0)).norm();
   double out = -1e300;
   for (int k = 0; k < f.corners; ++k) {
@@ -34,41 +29,6 @@ double outside(const Flat& f, const Vec3& x, const Vec3& n) {
     if (away.dot(f.at((k + 2) % f.corners) - from) > 0) away = -away;
     out = std::max(out, away.dot(x - from));
   }
-  return out;
-}
-
-Feature flat_feature(const Flat& f, const Vec3& x, const Vec3& n) {
-  const bool cylinder = f.solid->kind == Solid::Kind::cylinder;
-  Feature out = vertex_at(x);
-  if (is_disc(f) || f.corners > 2) {
-    out.kind = Kind::face;
-    out.t0 = n.unitOrthogonal();
-    out.t1 = n.cross(out.t0);
-  } else if (f.corners == 2) {
-    out = cylinder ? side_at(*f.solid, x) : edge_between(f.at(0), f.at(1));
-  } else if (f.solid->kind == Solid::Kind::ellipsoid) {
-    out = surface_at(*f.solid, f.along);
-  } else if (cylinder) {
-    out = rim_at(*f.solid, x);
-  }
-  out.x = x;
-  return out;
-}
-
-Feature corner_feature(const Flat& f, const Vec3& x, const Vec3& n) {
-  const bool whole = f.corners == 1 || f.solid->kind == Solid::Kind::cylinder;
-  if (whole && !is_disc(f)) {
-    Flat point = f;
-    point.corners = 1;
-    return flat_feature(point, x, n);
-  }
-  return vertex_at(x);
-}
-
-Feature outline_feature(const Flat& f, const Vec3& from, const Vec3& to, const Vec3& x) {
-  Feature out =
-      f.solid->kind == Solid::Kind::cylinder ? side_at(*f.solid, x) : edge_between(from, to);
-  out.x = x;
   return out;
 }
 
@@ -94,19 +54,11 @@ struct Shared {
   }
 };
 
-int corner_count(const Flat& f) { return is_disc(f) ? 4 : f.corners; }
-
-Vec3 corner_of(const Flat& f, int k) {
-  if (!is_disc(f)) return f.at(k);
-  const Vec3& axis = k < 2 ? f.u : f.v;
-  return f.center + (k % 2 == 0 ? f.radius : -f.radius) * axis;
-}
-
 /// Corners of f on g, at distance `d` along n from f to g. `turned`: f is b's.
 void offer_corners(const Flat& f, const Flat& g, const Vec3& n, bool turned, Shared& shared) {
-  const double d = n.dot((is_disc(g) ? g.center : g.at(0)) - corner_of(f, 0));
-  for (int k = 0; k < corner_count(f); ++k) {
-    const Vec3 x = corner_of(f, k), y = x + d * n;
+  const double d = n.dot((g.is_disc() ? g.center : g.at(0)) - f.at(0));
+  for (int k = 0; k < f.corners; ++k) {
+    const Vec3 x = f.at(k), y = x + d * n;
     const Feature at_f = corner_feature(f, x, n), at_g = flat_feature(g, y, n);
     const double past = outside(g, y, n);
     turned ? shared.offer(at_g, at_f, past) : shared.offer(at_f, at_g, past);
@@ -123,7 +75,7 @@ void offer_crossings(const Flat& f, const Flat& g, const Vec3& n, bool turned, S
     const double long_f = (to - from).norm();
     const Vec3 e = (to - from) / long_f;
     if (f.corners < 2 || (f.corners == 2 && i == 1)) return;
-    if (is_disc(g)) {  // |from + s e - center| = radius
+    if (g.is_disc()) {  // |from + s e - center| = radius
       const Vec3 c = from - g.center;
       const Vec3 off = c - n.dot(c) * n - e.dot(c) * e;
       const double square = g.radius * g.radius - off.squaredNorm();
@@ -175,16 +127,16 @@ void lay_flat(const Solid& A, const Solid& B, bool of_a, double tolerance, Meeti
   constexpr double own = 1e-12, other = 3e-15;
   const Flat f = flat_along(A, -out.n, of_a ? own : other);
   const Flat g = flat_along(B, out.n, of_a ? other : own);
-  const bool extended = (is_disc(f) || f.corners > 1) && (is_disc(g) || g.corners > 1);
+  const bool extended = f.corners > 1 && g.corners > 1;
   if (!extended && out.past <= tolerance) return;
   Meeting flat = out;
   flat.past = 1e300;
   Shared shared{A, B, tolerance, flat};
   offer_corners(f, g, out.n, false, shared);
   offer_corners(g, f, out.n, true, shared);
-  if (is_disc(f) && is_disc(g)) offer_circles(f, g, out.n, shared);
-  if (!is_disc(f)) offer_crossings(f, g, out.n, false, shared);
-  if (is_disc(f) && !is_disc(g)) offer_crossings(g, f, out.n, true, shared);
+  if (f.is_disc() && g.is_disc()) offer_circles(f, g, out.n, shared);
+  if (!f.is_disc()) offer_crossings(f, g, out.n, false, shared);
+  if (f.is_disc() && !g.is_disc()) offer_crossings(g, f, out.n, true, shared);
   if (flat.past > tolerance && flat.past >= out.past) return;
   flat.d = flat.n.dot(flat.a.x - flat.b.x);
   out = flat;

@@ -1,7 +1,7 @@
 // Where two features face each other.
 #pragma once
 
-#include "collision/convex/solid.hpp"
+#include "collision/shapes/features.hpp"
 
 namespace saltus {
 

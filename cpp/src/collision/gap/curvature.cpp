@@ -15,7 +15,7 @@
 // where cores touch. Eliminating z leaves C = -g^T M^-1 g.
 #include <Eigen/LU>
 
-#include "collision/gap/point_distance.hpp"
+#include "collision/shapes/point_distance.hpp"
 #include "saltus/collision/gap.hpp"
 
 namespace saltus {

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/gap/point_distance.hpp"
+#include "collision/shapes/point_distance.hpp"
 
 namespace saltus {
 namespace {

@@ -1,57 +1,79 @@
 #include "saltus/collision/parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <numeric>
 
-#include "collision/parts/crossing.hpp"
-#include "collision/parts/on_faces.hpp"
-#include "collision/parts/rim_crossing.hpp"
-#include "collision/shapes/corners.hpp"
+#include "collision/parts/kinds.hpp"
 
 namespace saltus {
 namespace {
-
-template <class Kind>
-bool is(const Shape& shape) {
-  return std::holds_alternative<Kind>(shape);
-}
-
-/// Balls and ellipsoids touch anything in one point.
-bool is_round(const Shape& shape) { return is<Sphere>(shape) || is<Ellipsoid>(shape); }
 
 /// Edges of solids are listed up to this many crossings of two shapes: boxes have 144, hexagonal
 /// prisms 324. Each is a gap of its own, looked at in every step in which the two are near.
 constexpr int most_crossings = 400;
 
-/// The parts of two shapes, in this order.
+/// Some of the gaps of two shapes.
+struct Rule {
+  bool exchanged;  ///< the first part is of b
+  bool crosses;    ///< edges or rims
+  int (*count)(const PartCounts& a, const PartCounts& b);
+  Parts (*parts)(const Shape& a, const Shape& b, int k);
+};
+
+int corners(const PartCounts& a, const PartCounts&) { return a.corners; }
+int lines(const PartCounts& a, const PartCounts& b) { return a.edges * b.edges; }
+int edges_over_rims(const PartCounts& a, const PartCounts& b) { return a.rims * b.edges; }
+int rims_over_rims(const PartCounts& a, const PartCounts& b) { return a.rims * b.rims / 2; }
+int rims(const PartCounts& a, const PartCounts&) { return a.rims; }
+int none(const PartCounts&, const PartCounts&) { return 0; }
+
+Parts wholes(const Shape& a, const Shape& b, int) { return {all_of(a), all_of(b), Whole{}}; }
+
+/// In the order of their numbers; the last stands in for the others.
+constexpr Rule rules[] = {{false, false, corners, corner_parts},
+                          {true, false, corners, corner_parts},
+                          {false, true, lines, crossing_parts},
+                          {false, true, edges_over_rims, edge_over_rim_parts},
+                          {true, true, edges_over_rims, edge_over_rim_parts},
+                          {false, true, rims_over_rims, rim_over_rim_parts},
+                          {false, false, rims, rim_parts},
+                          {true, false, rims, rim_parts},
+                          {false, false, none, wholes}};
+
+template <class S>
+bool is(const Shape& shape) {
+  return std::holds_alternative<S>(shape);
+}
+
+/// What has no parts touches anything in one point.
+bool is_round(const Shape& shape) {
+  const PartCounts n = part_counts(shape);
+  return n.corners + n.edges + n.rims == 0 && !is<HalfSpace>(shape);
+}
+
 struct Counts {
-  int corners_a = 0, corners_b = 0;
-  int lines = 0;   ///< an edge and an edge
-  int over_a = 0;  ///< an edge of b and the rims of a, in and out
-  int over_b = 0;  ///< an edge of a and those of b
-  int tips = 0;    ///< a rim and a rim, left and right
-  int rims_a = 0, rims_b = 0;
-  int whole = 0;
-  int crossings() const { return lines + over_a + over_b + tips; }
-  int all() const { return corners_a + corners_b + crossings() + rims_a + rims_b + whole; }
+  std::array<int, std::size(rules)> of = {};  ///< each rule
+
+  int all() const { return std::accumulate(of.begin(), of.end(), 0); }
+  int corners() const { return of[0] + of[1]; }
+  int crossings() const { return of[2] + of[3] + of[4] + of[5]; }
 };
 
 Counts counts_of(const Shape& a, const Shape& b) {
-  if (!has_gap(a, b)) return {};
-  if (is_round(a) || is_round(b)) return {.whole = 1};
-  if (is<HalfSpace>(b)) return {.corners_a = corner_count(a), .rims_a = rim_count(a)};
-  const int edges_a = edge_count(a), edges_b = edge_count(b);
-  Counts n{.corners_a = corner_count(a),
-           .corners_b = corner_count(b),
-           .lines = edges_a * edges_b,
-           .over_a = rim_count(a) * edges_b,
-           .over_b = rim_count(b) * edges_a,
-           .tips = rim_count(a) * rim_count(b) / 2,
-           .rims_a = rim_count(a),
-           .rims_b = rim_count(b)};
-  if (n.crossings() <= most_crossings) return n;
-  n.lines = n.over_a = n.over_b = n.tips = 0;
-  n.whole = 1;
+  Counts n;
+  if (!has_gap(a, b)) return n;
+  const PartCounts of_a = part_counts(a), of_b = part_counts(b);
+  const bool round = is_round(a) || is_round(b);
+  for (std::size_t i = 0; i < n.of.size() && !round; ++i) {
+    n.of[i] = rules[i].exchanged ? rules[i].count(of_b, of_a) : rules[i].count(of_a, of_b);
+  }
+  const bool too_many = n.crossings() > most_crossings;
+  for (std::size_t i = 0; i < n.of.size() && too_many; ++i) {
+    if (rules[i].crosses) n.of[i] = 0;
+  }
+  if (round || too_many) n.of.back() = 1;
   return n;
 }
 
@@ -59,53 +81,14 @@ bool goes_second(const Shape& a, const Shape& b) {
   return is<HalfSpace>(a) || (is<Sphere>(b) && !is<Sphere>(a));
 }
 
-PartOfShape all_of(const Shape& shape, const std::string& name = "") {
-  return {name, shape, {}, Vec3::Zero(), {}};
-}
-
-/// Both parts and the kind of their gap.
-struct Parts {
-  PairKind kind;
-  bool exchanged;  ///< the first part is of b
-  PartOfShape a, b;
-  RimPart rim = RimPart::none;
-};
-
-/// Edge k / 2 of `other` over the rims of `can`: where it goes in, or comes out.
-Parts over_rim(const Shape& can, const Shape& other, int k, bool exchanged) {
-  const bool in = k % 2 == 0;
-  return {PairKind::crossing, exchanged, all_of(can, in ? "in" : "out"), edge(other, k / 2),
-          in ? RimPart::in : RimPart::out};
-}
-
-/// Where the rims of two cylinders cross.
-Parts tip(const Shape& a, const Shape& b, int k) {
-  const std::string name = k == 0 ? "left" : "right";
-  return {PairKind::crossing, false, all_of(a, name), all_of(b, name),
-          k == 0 ? RimPart::left : RimPart::right};
-}
-
-Parts parts_of(const Shape& a, const Shape& b, int k) {
-  const Counts n = counts_of(a, b);
+/// Their gap number k; exchanges a and b where the first part is of b.
+Parts parts_of(const std::vector<PlacedShape>& shapes, int& a, int& b, int k) {
+  const Counts n = counts_of(shapes[a].shape, shapes[b].shape);
   assert(k >= 0 && k < n.all());
-  if (k < n.corners_a) return {PairKind::corner, false, corner(a, k), all_of(b)};
-  k -= n.corners_a;
-  if (k < n.corners_b) return {PairKind::corner, true, corner(b, k), all_of(a)};
-  k -= n.corners_b;
-  if (k < n.lines) {
-    return {PairKind::crossing, false, edge(a, k / edge_count(b)), edge(b, k % edge_count(b))};
-  }
-  k -= n.lines;
-  if (k < n.over_a) return over_rim(a, b, k, false);
-  k -= n.over_a;
-  if (k < n.over_b) return over_rim(b, a, k, true);
-  k -= n.over_b;
-  if (k < n.tips) return tip(a, b, k);
-  k -= n.tips;
-  if (k < n.rims_a) return {PairKind::whole, false, rim(a, k), all_of(b), RimPart::nearest};
-  k -= n.rims_a;
-  if (k < n.rims_b) return {PairKind::whole, true, rim(b, k), all_of(a), RimPart::nearest};
-  return {PairKind::whole, false, all_of(a), all_of(b)};
+  std::size_t i = 0;
+  for (; k >= n.of[i]; ++i) k -= n.of[i];
+  if (rules[i].exchanged) std::swap(a, b);
+  return rules[i].parts(shapes[a].shape, shapes[b].shape, k);
 }
 
 Placed put(const PlacedShape& shape, const PartOfShape& part) {
@@ -115,8 +98,9 @@ Placed put(const PlacedShape& shape, const PartOfShape& part) {
 /// A corner or rim that slides over the border of a face stays in its plane, also where that ends.
 /// What is round bears the rims and the points of cylinders as it is.
 bool is_held_in_faces(const Shape& a, const Parts& parts, const Shape& b) {
-  if (parts.rim != RimPart::none) return is<Box>(b) || is<Convex>(b);
-  return !is<Cylinder>(a) || has_flat_faces(b);
+  const PartCounts n = part_counts(b);
+  if (std::holds_alternative<Rim>(parts.kind)) return n.faces > 0 && n.rims == 0;
+  return part_counts(a).rims == 0 || n.faces > 0;
 }
 
 Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b,
@@ -125,11 +109,8 @@ Pair pair_of(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, in
   pair.a = a;
   pair.b = b;
   pair.kind = parts.kind;
-  pair.rim = parts.rim;
   pair.on_a = put(shapes[a], parts.a);
   pair.on_b = put(shapes[b], parts.b);
-  pair.out_a = parts.a.out;
-  pair.out_b = parts.b.out;
   if (is_held_in_faces(shapes[a].shape, parts, shapes[b].shape)) pair.inward = parts.a.inward;
   pair.chain = chain_between(tree, pair.on_b.joint, pair.on_a.joint);
   pair.touch =
@@ -145,32 +126,28 @@ int part_count(const Shape& a, const Shape& b) {
 
 Pair make_solid_pair(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b) {
   if (goes_second(shapes[a].shape, shapes[b].shape)) std::swap(a, b);
-  const Parts parts{PairKind::whole, false, all_of(shapes[a].shape), all_of(shapes[b].shape)};
-  return pair_of(tree, shapes, a, b, parts);
+  return pair_of(tree, shapes, a, b, wholes(shapes[a].shape, shapes[b].shape, 0));
 }
 
 Pair make_pair(const Tree& tree, const std::vector<PlacedShape>& shapes, int a, int b, int part) {
   if (goes_second(shapes[a].shape, shapes[b].shape)) std::swap(a, b);
-  const Parts parts = parts_of(shapes[a].shape, shapes[b].shape, part);
-  if (parts.exchanged) std::swap(a, b);
+  const Counts n = counts_of(shapes[a].shape, shapes[b].shape);
+  const Parts parts = parts_of(shapes, a, b, part);
   Pair pair = pair_of(tree, shapes, a, b, parts);
   pair.part = part;
-  const Counts n = counts_of(shapes[a].shape, shapes[b].shape);
-  pair.lists_edges = n.crossings() > 0;
-  pair.skips_corners =
-      parts.kind == PairKind::whole && parts.rim == RimPart::none && n.corners_a + n.corners_b > 0;
+  if (auto* rim = std::get_if<Rim>(&pair.kind)) rim->lists_edges = n.crossings() > 0;
+  if (auto* whole = std::get_if<Whole>(&pair.kind)) whole->skips_corners = n.corners() > 0;
   return pair;
 }
 
 std::string pair_name(const std::vector<PlacedShape>& shapes, const Pair& pair) {
-  const int first = std::min(pair.a, pair.b), second = std::max(pair.a, pair.b);
-  const bool exchanged = goes_second(shapes[first].shape, shapes[second].shape);
-  const int a = exchanged ? second : first, b = exchanged ? first : second;
-  const Parts parts = parts_of(shapes[a].shape, shapes[b].shape, pair.part);
+  int a = std::min(pair.a, pair.b), b = std::max(pair.a, pair.b);
+  if (goes_second(shapes[a].shape, shapes[b].shape)) std::swap(a, b);
+  const Parts parts = parts_of(shapes, a, b, pair.part);
   const auto show = [&](int shape, const std::string& part) {
     return shapes[shape].name + (part.empty() ? "" : "[" + part + "]");
   };
-  return show(pair.a, parts.a.name) + " ~ " + show(pair.b, parts.b.name);
+  return show(a, parts.a.name) + " ~ " + show(b, parts.b.name);
 }
 
 Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
@@ -178,32 +155,19 @@ Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
 }
 
 Gap part_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Vec3& motion_W) {
-  if (pair.kind == PairKind::crossing) {
-    return pair.rim == RimPart::none ? crossing_gap(pair, X_WA, X_WB)
-                                     : rim_crossing_gap(pair, X_WA, X_WB);
-  }
-  if (pair.rim != RimPart::none) return rim_on_faces(pair, X_WA, X_WB);
-  if (!pair.inward.empty()) return corner_on_faces(pair, X_WA, X_WB, motion_W);
-  return gap(pair.on_a.shape, X_WA, pair.on_b.shape, X_WB);
+  return std::visit([&](const auto& kind) { return gap_of(kind, pair, X_WA, X_WB, motion_W); },
+                    pair.kind);
 }
 
 bool is_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
-  if (pair.kind == PairKind::crossing) {
-    return pair.rim == RimPart::none ? !is_crossing(pair, X_WA, X_WB, gap)
-                                     : !is_rim_crossing(pair, X_WA, X_WB, gap);
-  }
-  if (pair.rim != RimPart::none) return is_rim_silent(pair, X_WA, X_WB, gap);
-  if (pair.kind == PairKind::corner) return is_rim_point_silent(pair, X_WA, gap);
-  if (!pair.skips_corners) return false;
-  const auto on_corner = [](const Shape& shape, const Patch& patch) {
-    return patch.dim == 0 && !is<Cylinder>(shape);
-  };
-  const auto on_rim = [](const Shape& shape, const Patch& patch, const Patch& other) {
-    return patch.dim == 1 && other.dim == 2 && is<Cylinder>(shape);
-  };
-  const Shape &a = pair.on_a.shape, &b = pair.on_b.shape;
-  return on_corner(a, gap.a) || on_corner(b, gap.b) || on_rim(a, gap.a, gap.b) ||
-         on_rim(b, gap.b, gap.a);
+  return std::visit([&](const auto& kind) { return silent(kind, pair, X_WA, X_WB, gap); },
+                    pair.kind);
+}
+
+bool may_be_silent(const Pair& pair) {
+  if (const auto* corner = std::get_if<Corner>(&pair.kind)) return !corner->out.isZero(0);
+  const auto* whole = std::get_if<Whole>(&pair.kind);
+  return whole == nullptr || whole->skips_corners;
 }
 
 }  // namespace saltus

@@ -1,3 +1,8 @@
+// A can that stands on a table, in part beyond its border, is held where the border goes in below
+// its cap and where it comes out; where a cap lies flat on another, where their rims cross. These
+// are watched while the edge is within cosine_flat of the cap's plane; beyond, one place alone is
+// nearest, and the rim as a whole has it.
+//
 // In a's frame, z its axis: the edge's line y + s e is over the rim where it crosses the round of
 // the cylinder,
 //
@@ -11,52 +16,37 @@
 //
 // Both exact where cap and edge, or the caps, are parallel or touch there; meeting.cpp goes on from
 // there to where x - y is across both.
-#include "collision/parts/rim_crossing.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "collision/convex/meeting.hpp"
-#include "collision/gap/point_distance.hpp"
-#include "collision/parts/crossing.hpp"
+#include "collision/parts/kinds.hpp"
 #include "saltus/tree/tree.hpp"
 
 namespace saltus {
 namespace {
 
-/// Sine of the greatest angle between a cap and an edge, or another cap, that it lies flat on:
-/// while one place bears, the other is not missed as they come down on each other. It is 0.1.
-constexpr double cosine_flat = 0.99498743710662;
-
-/// Below this sine of the edge and the rim's tangent the two places are near to one: the rim as a
-/// whole has it.
-constexpr double parallel = 0.05;
-
 /// A round edge that lies tilted may cross beside where it seems to: this part of the radius.
 constexpr double near = 0.05;
 
-constexpr double upright_sine = 1e-10;  // [rad]
-constexpr double tilt = 1e-3;           // [rad] as of edges: crossing.cpp
-
-/// [pair.touch] as of edges: crossing.cpp
-constexpr double deepest = 1e8;
-
-bool is_cylinder(const Shape& shape) { return std::holds_alternative<Cylinder>(shape); }
+using Where = RimCrossing::Place;
 
 /// What a pair is about.
 struct Place {
+  const Shape& shape_a;
   Cylinder a;
   const Shape& b;
-  RimPart rim;
+  RimCrossing::Place place;
   Vec3 out_a, out_b;  ///< as in Pair
 
-  bool of_rims() const { return rim == RimPart::left || rim == RimPart::right; }
+  bool of_rims() const { return place == Where::left || place == Where::right; }
   const Cylinder& other() const { return std::get<Cylinder>(b); }
 };
 
-Place place_of(const Pair& pair) {
-  return {std::get<Cylinder>(pair.on_a.shape), pair.on_b.shape, pair.rim, pair.out_a, pair.out_b};
+Place place_of(const RimCrossing& at, const Pair& pair) {
+  const Shape& a = pair.on_a.shape;
+  return {a, std::get<Cylinder>(a), pair.on_b.shape, at.place, Vec3::Zero(), at.out_b};
 }
 
 /// Out of the cap that is nearer to p.
@@ -85,7 +75,7 @@ bool edge_over_rim(const Place& x, const Pose& X_WA, const Pose& X_WB, Guess& ou
   const double half = r * r - (y_across + s_0 * e_across).squaredNorm();
   if (!(half > -near * r * r)) return false;
   const double far = std::sqrt(std::fmax(half, near * near * r * r) / square);
-  const double s = s_0 + (x.rim == RimPart::in ? -far : far);
+  const double s = s_0 + (x.place == Where::in ? -far : far);
   out.middle = y + s_0 * e;
   out.y = axis + s * e;
   out.n = -m;
@@ -106,7 +96,7 @@ bool rim_over_rim(const Place& x, const Pose& X_WA, const Pose& X_WB, Guess& out
   const double along = (c * c + a.radius * a.radius - b.radius * b.radius) / (2 * c);
   const double square = a.radius * a.radius - along * along;
   if (!(square > 0)) return false;
-  const Vec3 u = line / c, v = (x.rim == RimPart::left ? 1 : -1) * out.n.cross(u);
+  const Vec3 u = line / c, v = (x.place == Where::left ? 1 : -1) * out.n.cross(u);
   out.middle = at_a + along * u;
   out.x = out.middle + std::sqrt(square) * v;
   out.y = out.x + out.n.dot(apart) * out.n;
@@ -136,7 +126,7 @@ bool is_off_cap(const Pose& X, const Vec3& cap, const Vec3& p_W, const Vec3& n_W
 bool is_edge_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
   const Vec3 z = X_WA.R.col(2), e = X_WB.R.col(2), from_axis = gap.p_WA - X_WA.p;
   const bool goes_in = e.dot(from_axis - z.dot(from_axis) * z) < 0;
-  if (goes_in != (x.rim == RimPart::in)) return false;
+  if (goes_in != (x.place == Where::in)) return false;
   if (!is_within_ends(x.b, X_WB, gap.p_WB)) return false;
   return x.out_b.isZero(0) || is_in_cone(gap.n_W, X_WB.R * x.out_b);
 }
@@ -144,12 +134,13 @@ bool is_edge_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap
 Gap gap_at(const Place& place, const Pose& X_WA, const Pose& X_WB) {
   Guess at;
   if (!guess(place, X_WA, X_WB, at)) return nowhere(X_WA, X_WB);
-  const Vec3 zero = Vec3::Zero(), p_B = X_WB.p - X_WA.p;
-  const Solid A = solid_of(place.a, X_WA.R, zero);
+  const Vec3 p_B = X_WB.p - X_WA.p;
+  const Solid A = solid_of(place.shape_a, X_WA.R, Vec3::Zero());
   const bool rims = place.of_rims();
-  const Solid B =
-      rims ? solid_of(place.other(), X_WB.R, p_B) : solid_of(edge_capsule(place.b), X_WB.R, p_B);
-  const Vec3 end = B.size.z() * X_WB.R.col(2);
+  const Capsule edge = edge_capsule(place.b);
+  const Shape line = edge;
+  const Solid B = solid_of(rims ? place.b : line, X_WB.R, p_B);
+  const Vec3 end = edge.half_length * X_WB.R.col(2);
   Feature a = rim_at(A, at.x), b = rims ? rim_at(B, at.y) : edge_between(p_B - end, p_B + end);
   if (!rims) b.x = at.y;
   Vec3 n = at.n;
@@ -167,7 +158,7 @@ Gap gap_at(const Place& place, const Pose& X_WA, const Pose& X_WB) {
 
 bool is_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
   if (!std::isfinite(gap.phi)) return false;
-  if (gap.a.t0.cross(gap.b.t0).norm() < parallel) return false;
+  if (gap.a.t0.cross(gap.b.t0).norm() < along_rim) return false;
   // of a disc the point tells no side
   const Vec3 cap = x.out_a.isZero(0) ? cap_towards(X_WA, gap.p_WA) : Vec3(X_WA.R * x.out_a);
   if (!is_off_cap(X_WA, cap, gap.p_WA, -gap.n_W)) return false;
@@ -175,52 +166,49 @@ bool is_there(const Place& x, const Pose& X_WA, const Pose& X_WB, const Gap& gap
   return is_edge_there(x, X_WA, X_WB, gap);
 }
 
-/// True where a round shape crosses the rim of `pair` no farther off than its gap.
-bool is_crossed(const Pair& pair, bool rims, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
-  Place x = place_of(pair);
+}  // namespace
+
+Parts edge_over_rim_parts(const Shape& a, const Shape& b, int k) {
+  const PartOfShape part = edge(b, k / 2);
+  const bool in = k % 2 == 0;
+  return {all_of(a, in ? "in" : "out"), part, RimCrossing{in ? Where::in : Where::out, part.out}};
+}
+
+Parts rim_over_rim_parts(const Shape& a, const Shape& b, int k) {
+  const std::string name = k == 0 ? "left" : "right";
+  return {all_of(a, name), all_of(b, name),
+          RimCrossing{k == 0 ? Where::left : Where::right, Vec3::Zero()}};
+}
+
+/// Of the rim's circle, there, and the line of the edge, less its radius; or of the two circles.
+/// phi is infinite where there is no such place.
+Gap gap_of(const RimCrossing& at, const Pair& pair, const Pose& X_WA, const Pose& X_WB,
+           const Vec3&) {
+  return gap_at(place_of(at, pair), X_WA, X_WB);
+}
+
+/// Where it is beyond an end of the edge, on the far side of a body, or tilted.
+bool silent(const RimCrossing& at, const Pair& pair, const Pose& X_WA, const Pose& X_WB,
+            const Gap& gap) {
+  return !(gap.phi > -deepest * pair.touch) || !is_there(place_of(at, pair), X_WA, X_WB, gap);
+}
+
+bool is_rim_crossed(const Rim& rim, const Pair& pair, bool by_rim, const Pose& X_WA,
+                    const Pose& X_WB, const Gap& gap) {
+  const Shape& a = pair.on_a.shape;
   for (const bool first : {true, false}) {
-    x.rim = rims ? (first ? RimPart::left : RimPart::right) : (first ? RimPart::in : RimPart::out);
+    const Where where =
+        by_rim ? (first ? Where::left : Where::right) : (first ? Where::in : Where::out);
+    const Place x{a, std::get<Cylinder>(a), pair.on_b.shape, where, rim.out, Vec3::Zero()};
     const Gap g = gap_at(x, X_WA, X_WB);
     if (g.phi <= gap.phi + pair.touch && is_there(x, X_WA, X_WB, g)) return true;
   }
   return false;
 }
 
-}  // namespace
-
-Gap rim_crossing_gap(const Pair& pair, const Pose& X_WA, const Pose& X_WB) {
-  return gap_at(place_of(pair), X_WA, X_WB);
-}
-
-bool is_rim_crossing(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
-  return gap.phi > -deepest * pair.touch && is_there(place_of(pair), X_WA, X_WB, gap);
-}
-
-bool is_rim_silent(const Pair& pair, const Pose& X_WA, const Pose& X_WB, const Gap& gap) {
-  if (gap.a.dim != 1) return true;
-  if (gap.b.dim == 0) return true;
-  const Vec3 z = X_WA.R.col(2);
-  const Shape& b = pair.on_b.shape;
-  const bool upright = z.cross(gap.n_W).norm() < upright_sine;
-  if (is_cylinder(b) || std::holds_alternative<Capsule>(b)) {
-    const bool on_side = is_cylinder(b) && gap.b.dim == 2;
-    if (on_side && std::abs(X_WB.R.col(2).dot(gap.n_W)) > 0.5) return upright;  // its cap
-    const bool rims = is_cylinder(b) && !on_side;
-    return is_crossed(pair, rims, X_WA, X_WB, gap);
-  }
-  if (gap.b.dim == 2) return upright;
-  if (!pair.lists_edges) return true;
-  const bool crosses = gap.a.t0.cross(gap.b.t0).norm() >= parallel;
-  return crosses && -gap.n_W.dot(z) * side(pair.out_a.z()) >= cosine_flat;
-}
-
-bool is_rim_point_silent(const Pair& pair, const Pose& X_WA, const Gap& gap) {
-  return !pair.out_a.isZero(0) && -gap.n_W.dot(X_WA.R * pair.out_a) < cosine_flat;
-}
-
-bool near_rim(const Pair& pair, const Pose& X_BA, NearRim& out) {
+bool near_rim(const RimCrossing& crossing, const Pair& pair, const Pose& X_BA, NearRim& out) {
   Guess at;
-  const Place x = place_of(pair);
+  const Place x = place_of(crossing, pair);
   if (!guess(x, X_BA, {}, at)) return false;
   out.of_a = x.of_rims();
   out.part.joint = out.of_a ? pair.on_a.joint : pair.on_b.joint;
@@ -229,7 +217,7 @@ bool near_rim(const Pair& pair, const Pose& X_BA, NearRim& out) {
     const double half = edge_capsule(pair.on_b.shape).half_length;
     const double middle = X_BA.p.z() + at.middle.z();
     from = std::clamp(middle, -half, half) * Vec3::UnitZ();
-    to = (pair.rim == RimPart::in ? -half : half) * Vec3::UnitZ();
+    to = (crossing.place == Where::in ? -half : half) * Vec3::UnitZ();
   } else {
     from = X_BA.R.transpose() * from;
     to = X_BA.R.transpose() * to;
@@ -241,7 +229,8 @@ bool near_rim(const Pair& pair, const Pose& X_BA, NearRim& out) {
   const double radius = out.of_a ? 0 : edge_capsule(pair.on_b.shape).radius;
   out.part.X_JG = whole.X_JG * X_GP;
   out.part.shape = Capsule{radius, length / 2};
-  if (!out.of_a && is_cylinder(pair.on_b.shape)) out.part.shape = Cylinder{radius, length / 2};
+  const bool is_side = !out.of_a && part_counts(pair.on_b.shape).rims > 0;
+  if (is_side) out.part.shape = Cylinder{radius, length / 2};
   return true;
 }
 

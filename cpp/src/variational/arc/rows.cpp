@@ -36,7 +36,7 @@ void freeze(const ModelData& model, const Node& node, Row& row) {
   const Contact& contact = node.contacts[row.contact];
   const Pair& pair = *row.pair;
   row.is_frozen = true;
-  row.frozen.kind = PairKind::whole;
+  row.frozen.kind = Whole{};
   row.frozen.on_a = pair.on_a;
   row.frozen.on_b.joint = pair.on_b.joint;
   row.frozen.chain = pair.chain;  // no allocation: room for the deepest is reserved
