@@ -131,10 +131,12 @@ void Stepper::Impl::fail_impacts() {
 }
 
 void Stepper::Impl::fail_energy(double gain) {
-  halves_help = blames_contact = true;
+  halves_help = true;
+  blames_contact = !flight.work.rows.active.empty();
   std::ostringstream text, h;
-  text << "the arc up to t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
-       << " J, and contacts do no work: its equation was solved by another motion" << held_list();
+  text << "an arc by t = " << node.t << " s gains " << gain << " J to its kinetic " << kinetic
+       << " J" << (blames_contact ? ", and contacts do no work" : "")
+       << ": its equation was solved by another motion" << held_list();
   h << "a smaller h helps, h = " << scene.options.h << " s";
   raise(text.str(), h.str(), flight.work.arc.iterations);
 }

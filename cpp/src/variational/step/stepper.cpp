@@ -186,6 +186,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
   report.iterations += std::exchange(flight.work.iterations, 0);
   report.residual = std::max(report.residual, work.arc.residual);
   if (outcome != FlightOutcome::arrived) fail(outcome);
+  if (launch == nullptr) check_free_energy();
   note_start();
   ++report.arcs;
   remember(work.arc, node.t, work.rows, memory);

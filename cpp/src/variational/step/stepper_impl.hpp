@@ -20,6 +20,7 @@ struct Stepper::Impl {
         flight(scene),
         kick(scene),
         impact(scene),
+        meter(scene.model),
         end(scene, pool),
         unlocated(scene) {
     last.q.setZero(scene.model.tree.n_q);
@@ -48,6 +49,7 @@ struct Stepper::Impl {
   bool halves_left() const;
   void note_start();
   void check_energy();
+  void check_free_energy();
   void check_gaps();
   void check_idle_arcs();
 
@@ -74,6 +76,7 @@ struct Stepper::Impl {
   Flight flight;
   HalfKick kick;
   ImpactScratch impact;
+  EnergyMeter meter;
   Node end;             // of an arc by time stepping
   Unlocated unlocated;  // likewise
   StepReport report;
