@@ -5,6 +5,7 @@
 
 One to three free bodies fall on a floor, into a groove or into a pit, of any restitution and
 friction. The table says what became of the runs, the lines below it which scenes are to blame.
+Ctrl-C ends early.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import argparse
 import time
 import warnings
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -71,7 +73,7 @@ class Scene:
 class Counts:
     """What became of the runs, and which scenes are to blame."""
 
-    runs: int = 0
+    ended: int = 0  # runs without an error
     steps: int = 0
     warned: int = 0
     errors: Counter[str] = field(default_factory=Counter)
@@ -149,16 +151,18 @@ def worst_rungs(run: saltus.Trajectory, h: float) -> dict[int, str]:
 
 def add_run(counts: Counts, number: int, scene: Scene) -> None:
     """Throw one scene and count what became of it."""
-    counts.runs += 1
     start = time.process_time()
     try:
         run, warned = simulated(scene)
+        if not run.complete:
+            raise KeyboardInterrupt
     except (RuntimeError, ValueError, TimeoutError) as error:
         counts.errors[f"{type(error).__name__}: {error}"] += 1
         counts.blame.append(f"scene {number} ends in an error: {scene}")
         return
     finally:
         counts.slowest = max(counts.slowest, time.process_time() - start)
+    counts.ended += 1
     counts.warned += warned
     counts.steps += len(run) - 1
     rungs = worst_rungs(run, scene.h)
@@ -173,10 +177,9 @@ def add_run(counts: Counts, number: int, scene: Scene) -> None:
 
 
 def markdown(counts: Counts) -> str:
-    ended = counts.runs - counts.errors.total()
     plain = counts.steps - counts.steps_on.total()
     rows = [
-        ["runs", str(counts.runs)],
+        ["runs", str(counts.ended + counts.errors.total())],
         ["end in an error", str(counts.errors.total())],
         ["warn (StepWarning)", str(counts.warned)],
         [f"gain more than {GAIN:.1%} of the kinetic energy", str(counts.gains)],
@@ -184,7 +187,7 @@ def markdown(counts: Counts) -> str:
         ["slowest throw [s] of CPU", f"{counts.slowest:.2f}"],
     ]
     rungs = [
-        [rung, share(on, counts.steps), share(counts.runs_on[rung], ended)]
+        [rung, share(on, counts.steps), share(counts.runs_on[rung], counts.ended)]
         for rung, on in [("none", plain), *((rung, counts.steps_on[rung]) for rung in RUNGS)]
     ]
     parts = [grid(["what", "how many"], rows), grid(["worst rung", "of steps", "of runs"], rungs)]
@@ -207,10 +210,11 @@ def main() -> None:
     args = parser.parse_args()
     numbers = range(args.count) if args.scene is None else [args.scene]
     counts, start = Counts(), time.process_time()
-    for number in tqdm(numbers, unit="throw", disable=None):
-        add_run(counts, number, random_scene(args.seed, number))
-        if time.process_time() - start > args.seconds:
-            break
+    with suppress(KeyboardInterrupt):  # then of the scenes before
+        for number in tqdm(numbers, unit="throw", disable=None):
+            add_run(counts, number, random_scene(args.seed, number))
+            if time.process_time() - start > args.seconds:
+                break
     print(markdown(counts))
 
 
