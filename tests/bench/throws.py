@@ -47,7 +47,7 @@ APART = 0.9  # [m] between the bodies' heights; the largest is 0.75 m long
 # A midpoint swings by (h omega)^2 / 8, which 40 rad/s on landing make a percent or two.
 GAIN = 0.025  # of the largest kinetic energy
 SINK = 1e-9  # [m]
-PATIENCE = 60.0  # [s] of CPU for a throw
+SLOW, PATIENCE = 5.0, 60.0  # [s] of CPU for a throw: told, and no more
 
 RUNGS = ("halved", "unlocated", "stopped")  # each is worse than the ones before
 
@@ -161,7 +161,10 @@ def add_run(counts: Counts, number: int, scene: Scene) -> None:
         counts.blame.append(f"scene {number} ends in an error: {scene}")
         return
     finally:
-        counts.slowest = max(counts.slowest, time.process_time() - start)
+        spent = time.process_time() - start
+        counts.slowest = max(counts.slowest, spent)
+        if spent > SLOW:
+            counts.blame.append(f"scene {number} takes {spent:.1f} s of CPU: {scene}")
     counts.ended += 1
     counts.warned += warned
     counts.steps += len(run) - 1
