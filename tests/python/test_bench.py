@@ -160,3 +160,23 @@ def test_towers_stand_in_their_benchmark():
     cells = done.stdout.splitlines()[2].split("|")
     assert [cell.strip() for cell in cells[1:4]] == ["2", "saltus", "10"]
     assert float(cells[6]) < 1e-11  # [m] drift, rounding is 1e-14
+
+
+def test_bodies_are_thrown_in_their_benchmark():
+    call = [sys.executable, "-m", "tests.bench.throws", "--count", "3"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+    rows = [line.split("|")[1:3] for line in done.stdout.splitlines()[2:7]]
+    found = {what.split()[0]: int(number) for what, number in rows}
+    found.pop("warn")
+    assert found == {"runs": 3, "end": 0, "gain": 0, "sink": 0}
+
+
+def test_contact_solvers_settle_in_their_benchmark():
+    pytest.importorskip("scipy")
+    call = [sys.executable, "-m", "tests.bench.contact_solvers", "--count", "2", "--sizes", "4"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+    head, _, *rows = [line.split("|")[1:-1] for line in done.stdout.splitlines()]
+    column = [name.strip() for name in head].index("saltus")
+    assert len(rows) == 8
+    for row in rows:
+        assert float(row[column].split("(")[1].split(")")[0]) < 1e-12
