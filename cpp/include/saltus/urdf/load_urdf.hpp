@@ -4,8 +4,8 @@
 // closes a cycle, shapes it does not know) is checked first, with file and line. URDF 1.0, 1.1 and
 // 1.2 are read alike. Beyond URDF:
 //   * joints of type "spherical" or "ball": a unit quaternion;
-//   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is that along z without the
-//     two half balls;
+//   * `<capsule radius length>` inside `<geometry>` (URDF 1.1): `length` is that along z without
+//     the two half balls;
 //   * limits may be "inf"; `<limit>` may lack effort and velocity, which then are infinite;
 //   * a block `<saltus>` below `<robot>`, which other readers skip:
 //       <half_space name="floor" normal="0 0 1" offset="0"/>    solid where normal.x <= offset
