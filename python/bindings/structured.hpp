@@ -22,7 +22,8 @@ struct Fields {
 
 /// A read-only array over `items`, which `self` keeps alive.
 template <class Item>
-py::object structured_view(const std::vector<Item>& items, const py::dtype& type, const py::object& self) {
+py::object structured_view(const std::vector<Item>& items, const py::dtype& type,
+                           const py::object& self) {
   return read_only(
       py::array(type, {static_cast<py::ssize_t>(items.size())}, {}, items.data(), self));
 }
