@@ -129,5 +129,5 @@ def test_a_free_arc_that_is_another_motion_is_made_of_shorter_ones():
     assert set(run.fallbacks["rung"]) == {"halved"}
     # the swing of an arc of h w = 0.75: (h w)^2 / 8 of what moves at most
     assert abs(run.total[1] - run.total[0]) < 0.07 * run.kinetic[0]
-    with pytest.raises(saltus.StepError, match="gains .* solved by another motion"):
+    with pytest.raises(saltus.StepError, match=r"gains .* solved by another motion"):
         saltus.simulate(model, state=start, duration=0.02, h=0.02, max_halvings=0)

@@ -33,8 +33,7 @@ double lost_energy(const Node& node, const ImpactScratch& s) {
 /// Says what the arc after the impact has to match, and by a change of which impulse: the last
 /// strong one (theory, section 5, warning a).
 /// @param first of this impact's impulses in the report
-void prepare_launch(const Scene& scene, double energy, int first, Node& node,
-                    ImpactScratch& s) {
+void prepare_launch(const Scene& scene, double energy, int first, Node& node, ImpactScratch& s) {
   double strongest = 0;
   for (const Impulse& impulse : s.impulses) {
     strongest = std::max(strongest, normal_energy(s, impulse));
