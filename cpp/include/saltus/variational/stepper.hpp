@@ -11,7 +11,9 @@ namespace saltus {
 
 /// Owns a copy of the model and its working memory. Deterministic: the same sequence of states in
 /// gives the same bits out. (The first guess uses the arcs before, so the step of a single state
-/// may differ in the last bits.) Not thread-safe; make one stepper per thread.
+/// may differ in the last bits; where more contacts slide with friction than a body needs, their
+/// shares of the load are no single answer, and may differ, and the motion with them.) Not
+/// thread-safe; make one stepper per thread.
 class SALTUS_EXPORT Stepper {
  public:
   /// @throws ModelError on an option outside its range.

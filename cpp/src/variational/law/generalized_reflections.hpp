@@ -20,7 +20,8 @@
 
 namespace saltus {
 
-/// ImpactOrder::symmetric; arguments as for cascade(). Impulses of a round come in order of index.
+/// ImpactOrder::symmetric; arguments as for cascade(). Impulses of a round come in order of index
+/// within each group of contacts that feel each other.
 /// @return false when max_impulses did not suffice; @throws StepError as contact_multipliers does.
 bool reflect_together(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
                       const VecRef& restitution, int max_impulses, std::vector<Impulse>& impulses);
