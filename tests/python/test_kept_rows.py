@@ -125,7 +125,7 @@ def test_the_run_that_stops_a_batch_has_its_rows():
 def test_the_command_line_writes_them(tmp_path):
     (tmp_path / "chain.urdf").write_text(saltus.scenes.chain(20))
     bent = [part for i in range(20) for part in ("--set", f"joint_{i}=0.05")]
-    numbers = ["--duration", "50", "--h", "0.25", "--out", tmp_path / "run.h5"]
+    numbers = ["--duration", "50", "--h", "1", "--out", tmp_path / "run.h5"]
     done = run_cli("simulate", tmp_path / "chain.urdf", *bent, *numbers)
     assert done.returncode == 1
     assert "DEL residual" in done.stderr
