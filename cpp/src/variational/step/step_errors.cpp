@@ -119,7 +119,8 @@ void Stepper::Impl::fail_jammed() {
   blames_contact = loses_energy();
   text << (opens ? "more may do (max_impulses) at " : "no motion opens all of, jammed are ")
        << contact_list();
-  throw JammedError(text.str(), node.t, flight.work.arc.residual, most);
+  cause = text.str();
+  throw JammedError(cause, node.t, flight.work.arc.residual, most);
 }
 
 void Stepper::Impl::fail_impacts() {

@@ -87,7 +87,7 @@ void Stepper::Impl::step(State& state) {
       iterations += report.iterations;
       if (is_last_attempt || !(halves_help || blames_contact)) break;
     }
-    if (halves_help && std::exchange(has_guesses, false)) continue;
+    if (std::exchange(has_guesses, false)) continue;
     const bool is_spent = arcs > most_arcs_spent || iterations > most_work();
     if (!halves_help || is_spent || halvings == scene.options.max_halvings) {
       if (scene.options.strict || !blames_contact) break;
@@ -132,7 +132,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
     const double tau = std::min(left, longest);
     blames_contact = false;
     try {
-      if (stepped > most_stepped) fail_work();
+      if (stepped > most_stepped || report.iterations > most_work()) fail_work();
       const Launch* launch = has_approach(node) ? collide() : nullptr;
       fly_one_arc(tau, launch);
       const double rest = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
@@ -140,7 +140,9 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
       left = rest;
     } catch (const StepError&) {
       if (!blames_contact) throw;
+      const int spent = report.iterations;  // counts towards the bound, whatever it was good for
       report = told;
+      report.iterations = spent;
       place_node(scene, at.t, at.q, at.p, node);
       if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;
       left = tau < left ? left - tau : 0;

@@ -85,8 +85,8 @@ struct Stepper::Impl {
   double longest = 0;  // [s] no arc of this attempt may be longer
   bool is_last_attempt = false;
   // of the last failure
-  bool halves_help = false;     // it may not come with shorter arcs
-  bool blames_contact = false;  // nor with time stepping
+  bool halves_help = false;     // with shorter arcs it may not come
+  bool blames_contact = false;  // with time stepping it does not: contacts are to blame
   std::string cause;
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
