@@ -89,7 +89,7 @@ def test_energy_never_grows():
         ({"T": None}, "friction is given without T, two rows a contact: T v is the velocity along"),
         ({"T": [[1.0, 0.0, 0.0]]}, "T is (1, 3); N is (1, 3), so T is (2, 3), two rows a contact"),
         ({"friction": [0.1, 0.2]}, "friction has 2 entries; N has 1"),
-        ({"friction": -0.1}, "friction is finite and not negative"),
+        ({"friction": -0.1}, "friction is finite and not negative; that of contact 0 is -0.1"),
         ({"friction": np.nan}, "friction is finite and not negative"),
         ({"friction": True}, "friction is one number or one for each contact, not True"),
         ({"friction": "rough"}, "friction is one number or one for each contact, not 'rough'"),

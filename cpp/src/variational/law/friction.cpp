@@ -68,7 +68,10 @@ void check_friction(const Eigen::Ref<const MatX>& N, const Eigen::Ref<const MatX
   } else if (!T.allFinite()) {
     text << "T holds a value that is not finite";
   } else if (friction.size() > 0 && !(friction.minCoeff() >= 0 && friction.allFinite())) {
-    text << "friction is finite and not negative";
+    Eigen::Index bad = 0;
+    while (friction[bad] >= 0 && std::isfinite(friction[bad])) ++bad;
+    text << "friction is finite and not negative; that of contact " << bad << " is "
+         << friction[bad];
   }
   if (!text.str().empty()) throw ModelError(text.str());
 }
