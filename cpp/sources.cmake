@@ -15,6 +15,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/ball_place.cpp
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp
+  cpp/src/lagrangian/packed/own_terms.cpp
   cpp/src/lagrangian/packed/pack.cpp
   cpp/src/lagrangian/packed/passes.cpp
   cpp/src/lagrangian/packed/place.cpp
@@ -24,6 +25,8 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/sweep.cpp
   cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp
+  # force
+  cpp/src/force/force_model.cpp
   # collision
   cpp/src/collision/shapes/box.cpp
   cpp/src/collision/shapes/capsule.cpp
@@ -64,6 +67,8 @@ set(SALTUS_SOURCES
   cpp/src/model/assembly.cpp
   cpp/src/model/configuration.cpp
   cpp/src/model/filter.cpp
+  cpp/src/model/force_verbs.cpp
+  cpp/src/model/joint_forces.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
@@ -98,6 +103,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/node/pair_pool.cpp
   cpp/src/variational/node/scene.cpp
   cpp/src/variational/arc/arc.cpp
+  cpp/src/variational/arc/arc_forces.cpp
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
   cpp/src/variational/arc/finish.cpp
@@ -117,15 +123,18 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/start_overlap.cpp
   cpp/src/variational/step/step_errors.cpp
+  cpp/src/variational/step/step_input.cpp
   cpp/src/variational/step/stepper.cpp
   cpp/src/variational/step/unlocated.cpp
   # rollout
+  cpp/src/rollout/control.cpp
   cpp/src/rollout/batch.cpp
   cpp/src/rollout/batch_trajectory.cpp
   cpp/src/rollout/recorder.cpp
   cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
   # urdf
+  cpp/src/urdf/actuators.cpp
   cpp/src/urdf/attributes.cpp
   cpp/src/urdf/collision_meshes.cpp
   cpp/src/urdf/document.cpp
@@ -161,6 +170,7 @@ set(SALTUS_BINDING_SOURCES
   # model
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
+  python/bindings/bind_forces.cpp
   python/bindings/bind_motion.cpp
   python/bindings/pickle.cpp
   # urdf
@@ -173,6 +183,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/step_options.cpp
   python/bindings/bind_variational.cpp
   # rollout
+  python/bindings/control.cpp
   python/bindings/bind_rollout.cpp
   python/bindings/bind_batch.cpp
 )

@@ -1,9 +1,10 @@
 // Rollout floor: many runs over threads, with the interpreter's lock released.
 #include <pybind11/native_enum.h>
 
-#include "bindings.hpp"
-
 #include <algorithm>
+
+#include "bindings.hpp"
+#include "control.hpp"
 #include "progress.hpp"
 #include "saltus/rollout/batch.hpp"
 
@@ -54,6 +55,10 @@ record_every : int
     Steps between recorded rows.
 record_contacts : bool
     Whether to fill `contacts` of each run.
+control : list of numpy.ndarray, shape (steps, n_u)
+    Of each run, or none; the last row holds on.
+forces, qfrc
+    Of all runs, as `saltus.simulate` takes them.
 threads : int
     0: as many as the machine runs at once. The bits do not depend on it.
 on_failure : OnFailure or str
@@ -69,8 +74,10 @@ StepError, JammedError, ModelError
 )";
 
 void run(BatchTrajectory& out, const std::vector<State>& starts, double duration,
-         const StepOptions& step, int record_every, bool record_contacts, int threads,
-         const Choice<OnFailure>& on_failure, const std::optional<Progress>& progress) {
+         const StepOptions& step, int record_every, bool record_contacts,
+         const std::vector<MatX>& control, const std::optional<Wrenches>& forces,
+         const Velocities& qfrc, int threads, const Choice<OnFailure>& on_failure,
+         const std::optional<Progress>& progress) {
   BatchOptions options;
   options.run.step = step;
   options.run.record_every = record_every;
@@ -79,6 +86,10 @@ void run(BatchTrajectory& out, const std::vector<State>& starts, double duration
   options.threads = threads;
   options.on_failure = to_enum(on_failure, "on_failure");
   const Model model = out.model;
+  options.run.policy = to_policy(py::none(), forces, qfrc, model);
+  for (const MatX& rows : control) {
+    options.policies.push_back(to_policy(py::cast(rows), forces, qfrc, model));
+  }
   const py::gil_scoped_release release;
   simulate_batch(model, starts, duration, options, out);
 }
@@ -120,15 +131,16 @@ std::vector<int> stepped_runs(const BatchTrajectory& batch) {
 void bind_batch_trajectory(py::module_& m) {
   using B = BatchTrajectory;
   py::class_<B>(m, "BatchTrajectory", batch_doc)
-      .def(
-          py::init([](const Model& model) { return B{model, {}, {}, {}, {}, {}, {}, {}, {}, {}}; }),
-          "Of no runs; `simulate_batch` writes to it.", py::arg("model"))
+      .def(py::init([](const Model& model) { return B{.model = model}; }),
+           "Of no runs; `simulate_batch` writes to it.", py::arg("model"))
       .def_readonly("model", &B::model)
       .def_readonly("options", &B::options)
       .def_readonly("t", &B::t, "[s] shape (rows,)")
       .def_property_readonly("q", &by_run<&B::q>, "[rad | m] shape (runs, rows, n)")
       .def_property_readonly("v", &by_run<&B::v>, "[rad/s | m/s] shape (runs, rows, n)")
       .def_property_readonly("p", &by_run<&B::p>, "shape (runs, rows, n)")
+      .def_property_readonly("control", &by_run<&B::control>, "shape (runs, rows, n_u)")
+      .def_property_readonly("work", &by_run<&B::work>, "[J] shape (runs, rows, n_u + 3)")
       .def_readonly("kinetic", &B::kinetic, "[J] shape (runs, rows)")
       .def_readonly("potential", &B::potential, "[J] shape (runs, rows)")
       .def_readonly("shadow", &B::shadow, "[J] shape (runs, rows)")
@@ -159,7 +171,9 @@ void bind_batch(py::module_& m) {
   m.def("states", &make_states, states_doc, py::arg("model"), py::arg("q"), py::arg("v"));
   m.def("simulate_batch", &run, simulate_batch_doc, py::arg("batch"), py::arg("starts"),
         py::arg("duration"), py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
-        py::arg("record_every") = 1, py::arg("record_contacts") = false, py::arg("threads") = 0,
+        py::arg("record_every") = 1, py::arg("record_contacts") = false,
+        py::arg_v("control", std::vector<MatX>{}, "[]"), py::arg("forces") = py::none(),
+        py::arg("qfrc") = py::none(), py::arg("threads") = 0,
         py::arg_v("on_failure", OnFailure::go_on, "OnFailure.go_on"),
         py::arg("progress") = py::none());
 }

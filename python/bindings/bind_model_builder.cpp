@@ -136,6 +136,8 @@ void bind_model_builder(py::module_& m) {
   bind_add_joint(c);
   bind_materials(c);
   bind_scenes(c);
+  bind_actuators(c);
+  bind_joint_forces(c);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",

@@ -62,6 +62,8 @@ fallbacks : list of (float, float, str, float, str)
     bodies in contact stand still in.
 contacts : list of ContactImpulse
     Impulses that held contacts closed over the step, each pair once, without those of impacts.
+work : dict of str to float
+    [J] done on the model in the step: by each actuator, and by "damping", "friction", "applied".
 )";
 
 constexpr auto contact_doc =
@@ -185,6 +187,7 @@ void bind_step_report(py::module_& m) {
       .def_readonly("settlings", &R::settlings)
       .def_readonly("contacts", &R::contacts)
       .def_readonly("fallbacks", &R::fallbacks)
+      .def_readonly("work", &R::work)
       .def("__repr__", [](const R& self) {
         return "StepReport(iterations=" + std::to_string(self.iterations) +
                ", arcs=" + std::to_string(self.arcs) +
@@ -196,7 +199,13 @@ void bind_step_report(py::module_& m) {
 
 NamedReport with_names(const Model& model, const StepReport& r) {
   NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual,
-                  {},           {},     {},          {}};
+                  {},           {},     {},          {},         {}};
+  std::vector<std::string> sources = names_of(model->forces.actuators);
+  sources.insert(sources.end(), {"damping", "friction", "applied"});
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    out.work[sources[k]] = i < r.work.size() ? r.work[i] : 0;
+  }
   for (const Impact& impact : r.impacts) {
     out.impacts.push_back(with_names(model, r, impact));
   }

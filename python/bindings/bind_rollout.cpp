@@ -1,5 +1,6 @@
 // Rollout floor: many steps in a row, with the interpreter's lock released.
 #include "bindings.hpp"
+#include "control.hpp"
 #include "progress.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "structured.hpp"
@@ -25,6 +26,10 @@ record_every : int
     Steps between recorded rows.
 record_contacts : bool
     Whether to fill `contacts`.
+control, forces, qfrc
+    As `saltus.simulate` takes them.
+control_every : int
+    Steps between the times that a function is asked.
 progress : callable, optional
     Called about ten times a second with the part done in [0, 1]; what it returns is not used.
 
@@ -54,13 +59,17 @@ Energies
 )";
 
 void run(Trajectory& out, const State& start, double duration, const StepOptions& step,
-         int record_every, bool record_contacts, const std::optional<Progress>& progress) {
+         int record_every, bool record_contacts, const py::object& control, int control_every,
+         const std::optional<Wrenches>& forces, const Velocities& qfrc,
+         const std::optional<Progress>& progress) {
   SimulateOptions options;
   options.step = step;
   options.record_every = record_every;
   options.record_contacts = record_contacts;
   options.progress = asking_python(progress);
   const Model model = out.model;
+  options.policy = to_policy(control, forces, qfrc, model);
+  options.control_every = control_every;
   const py::gil_scoped_release release;
   simulate(model, start, duration, options, out);
 }
@@ -102,9 +111,7 @@ py::object contacts(const py::object& self) {
 void bind_trajectory(py::module_& m) {
   using T = Trajectory;
   py::class_<T>(m, "Trajectory", trajectory_doc)
-      .def(py::init([](const Model& model) {
-             return T{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
-           }),
+      .def(py::init([](const Model& model) { return T{.model = model}; }),
            "Of no rows; `simulate` writes to it.", py::arg("model"))
       .def_readonly("model", &T::model)
       .def_readonly("options", &T::options)
@@ -115,6 +122,9 @@ void bind_trajectory(py::module_& m) {
       .def_readonly("kinetic", &T::kinetic, "[J] shape (rows,)")
       .def_readonly("potential", &T::potential, "[J] shape (rows,)")
       .def_readonly("shadow", &T::shadow, "[J] shape (rows,)")
+      .def_readonly("control", &T::control, "shape (rows, n_u)")
+      .def_readonly("work", &T::work,
+                    "[J] shape (rows, n_u + 3): of actuators, damping, friction, applied forces")
       .def_property_readonly("total", &T::total, "[J] shape (rows,)")
       .def_property_readonly("impacts", &rows<&T::impacts>,
                              "structured array: t, first, count, contacts, law, fallback")
@@ -148,6 +158,8 @@ void bind_rollout(py::module_& m) {
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
         py::arg("record_every") = 1, py::arg("record_contacts") = false,
+        py::arg("control") = py::none(), py::arg("control_every") = 1,
+        py::arg("forces") = py::none(), py::arg("qfrc") = py::none(),
         py::arg("progress") = py::none());
 }
 

@@ -2,6 +2,7 @@
 #include <mutex>
 
 #include "bindings.hpp"
+#include "control.hpp"
 #include "named_report.hpp"
 #include "saltus/variational/overlap.hpp"
 #include "saltus/variational/stepper.hpp"
@@ -37,6 +38,12 @@ constexpr auto advance_doc = R"(The state h later; `state` is not changed.
 Parameters
 ----------
 state : State
+control : mapping of names to values, or array_like, shape (n_u,), optional
+    Of the actuators over the step; those not named are 0.
+forces : mapping of links' names to Wrench, optional
+    Forces and torques on links over the step.
+qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+    [N m | N] forces on the coordinates over the step.
 
 Returns
 -------
@@ -88,10 +95,12 @@ struct SharedStepper {
 
   SharedStepper(const Model& model, const StepOptions& options) : stepper(model, options) {}
 
-  State advance(const State& state) {
+  State advance(const State& state, const py::object& control,
+                const std::optional<Wrenches>& forces, const Velocities& qfrc) {
+    const ForceInput input = to_input(control, forces, qfrc, stepper.model());
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex);
-    return stepper.advance(state);
+    return stepper.advance(state, input);
   }
   NamedReport report() {
     const py::gil_scoped_release release;
@@ -132,7 +141,9 @@ void bind_stepper(py::module_& m) {
            py::arg("max_halvings") = o.max_halvings, py::arg("max_impulses") = o.max_impulses,
            py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous,
            py::arg("strict") = o.strict)
-      .def("advance", &S::advance, advance_doc, py::arg("state"))
+      .def("advance", &S::advance, advance_doc, py::arg("state"), py::kw_only(),
+           py::arg("control") = py::none(), py::arg("forces") = py::none(),
+           py::arg("qfrc") = py::none())
       .def_property_readonly("report", &S::report, "StepReport of the step before.")
       .def_property_readonly("model", [](const S& s) { return s.stepper.model(); })
       .def_property_readonly("options", [](const S& s) { return s.stepper.options(); })

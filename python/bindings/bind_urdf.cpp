@@ -54,6 +54,8 @@ contact : ContactProperties, optional
     The default contact, in place of the file's own.
 floor : bool
     Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
+effects : JointEffects or str
+    What of the joints acts: limits, damping, dry friction, motors.
 
 Returns
 -------
@@ -74,7 +76,8 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                        const py::typing::Iterable<PathLike>& package_dirs,
                        const Choice<JointType>& root_joint, const Choice<TreeSolver>& solver,
                        const Choice<MeshUse>& meshes, const std::optional<PathLike>& srdf,
-                       const std::optional<ContactProperties>& contact, bool floor) {
+                       const std::optional<ContactProperties>& contact, bool floor,
+                       const Choice<JointEffects>& effects) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");
   }
@@ -84,6 +87,7 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                       to_enum(solver, "solver"),
                       to_enum(meshes, "meshes"),
                       {},
+                      to_enum(effects, "effects"),
                       contact,
                       floor};
   if (srdf && !srdf->value.is_none()) options.srdf = to_path(*srdf);
@@ -109,7 +113,8 @@ void bind_urdf(py::module_& m) {
         py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
         py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
         py::arg_v("srdf", py::none(), "None"), py::arg_v("contact", py::none(), "None"),
-        py::arg("floor").noconvert() = UrdfOptions{}.floor);
+        py::arg("floor").noconvert() = UrdfOptions{}.floor,
+        py::arg_v("effects", UrdfOptions{}.effects, "JointEffects.all"));
 }
 
 }  // namespace saltus::bindings

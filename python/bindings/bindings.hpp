@@ -16,6 +16,10 @@
 #include "saltus/variational/options.hpp"
 #include "saltus/variational/report.hpp"
 
+namespace saltus {
+class ModelBuilder;
+}
+
 namespace saltus::bindings {
 
 namespace py = pybind11;
@@ -27,6 +31,10 @@ void bind_collision(py::module_& m);
 void bind_model(py::module_& m);
 void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
 void bind_model_builder(py::module_& m);
+void bind_joint_effects(py::module_& m);              ///< called by bind_model
+void bind_model_forces(py::class_<Model>& c);         ///< likewise
+void bind_actuators(py::class_<ModelBuilder>& c);     ///< called by bind_model_builder
+void bind_joint_forces(py::class_<ModelBuilder>& c);  ///< likewise
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);

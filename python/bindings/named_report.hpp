@@ -1,6 +1,7 @@
 // A step's report with pairs by name, as Python has it.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ struct NamedReport {
   std::vector<std::pair<double, std::string>> settlings;
   std::vector<NamedContact> contacts;
   std::vector<std::tuple<double, double, std::string, double, std::string>> fallbacks;
+  std::map<std::string, double> work;
 };
 
 NamedReport with_names(const Model& model, const StepReport& report);

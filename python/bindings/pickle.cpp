@@ -24,7 +24,11 @@ using J = JointSpec;
 using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia>;
 using Joints =
     Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
-           &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction>;
+           &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction, &J::armature,
+           &J::stiffness, &J::rest, &J::limit_restitution, &J::effects>;
+using A = ActuatorSpec;
+using Actuators = Listed<A, &A::name, &A::joints, &A::gain, &A::bias, &A::bias_l, &A::bias_v,
+                         &A::effort, &A::lower, &A::upper>;
 using Shapes = Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape,
                       &ShapeSpec::X_LG, &ShapeSpec::material, &ShapeSpec::contact>;
 
@@ -51,10 +55,10 @@ Hull to_hull(const py::tuple& t) {
 py::tuple to_tuple(const ModelDescription& d) {
   const FilterSpec& f = d.filter;
   const MaterialSpec& m = d.materials;
-  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
-                        Joints::from(d.joints), Shapes::from(d.shapes),
-                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings);
+  return py::make_tuple(
+      d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
+      Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators));
 }
 
 ModelDescription to_description(const py::tuple& t) {
@@ -72,6 +76,7 @@ ModelDescription to_description(const py::tuple& t) {
   d.filter = from_tuple<F, &F::links, &F::bodies, &F::groups, &F::group_of, &F::adjacent>(t[8]);
   d.materials = from_tuple<M, &M::of_link, &M::contact, &M::standard>(t[9]);
   d.warnings = t[10].cast<std::vector<std::string>>();
+  d.actuators = Actuators::to(t[11]);
   return d;
 }
 

@@ -39,6 +39,7 @@ from saltus._core import (
     ImpactOutcomes,
     ImpactProblem,
     JammedError,
+    JointEffects,
     JointInfo,
     JointType,
     LagrangianPartials,
@@ -60,6 +61,7 @@ from saltus._core import (
     StepReport,
     TreeSolution,
     TreeSolver,
+    Wrench,
     __version__,
     classify_impact,
     energies,
@@ -82,6 +84,7 @@ from saltus.paths import cmake_dir, urdf_dir
 from saltus.records.impacts import impact_table
 from saltus.runs.batch import simulate_batch
 from saltus.runs.batch_trajectory import BatchTrajectory
+from saltus.runs.moment import Moment
 from saltus.runs.simulate import StepWarning, simulate
 from saltus.runs.trajectory import Trajectory, load
 from saltus.urdf import ModelWarning, load_urdf
@@ -115,6 +118,7 @@ __all__ = [
     "ImpactOutcomes",
     "ImpactProblem",
     "JammedError",
+    "JointEffects",
     "JointInfo",
     "JointType",
     "LagrangianPartials",
@@ -125,6 +129,7 @@ __all__ = [
     "ModelBuilder",
     "ModelError",
     "ModelWarning",
+    "Moment",
     "OnFailure",
     "Pair",
     "PlacedShape",
@@ -140,6 +145,7 @@ __all__ = [
     "Trajectory",
     "TreeSolution",
     "TreeSolver",
+    "Wrench",
     "__version__",
     "classify_impact",
     "cmake_dir",

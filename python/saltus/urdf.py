@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from saltus._core import (
     ContactProperties,
+    JointEffects,
     JointType,
     MeshUse,
     Model,
@@ -56,6 +57,7 @@ def load_urdf(
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
+    effects: JointEffects | str = JointEffects.all,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -83,6 +85,9 @@ def load_urdf(
         nothing else sets.
     floor : bool
         True: adds a floor, the half-space z <= 0, unless the file has it.
+    effects : JointEffects or str
+        What of the joints acts: limits as stops, damping, dry friction, motors. "none": joints move
+        freely, and the numbers of the file are information.
 
     Returns
     -------
@@ -110,5 +115,6 @@ def load_urdf(
         srdf=srdf,
         contact=contact,
         floor=floor,
+        effects=effects,
     )
     return builder.build()

@@ -30,6 +30,16 @@ void add_pairs(const Tree& tree, const PackedTree& t, const SecondPartials& rows
   }
 }
 
+/// What coordinates have of their own, in L_vv and L_qq.
+void add_own_pairs(const PackedTree& t, MatX& L_vv, MatX* L_qq) {
+  for (std::size_t c = 0; c < t.slot_of_velocity.size() && !t.own.empty(); ++c) {
+    const double* own = at(t.own, t.slot_of_velocity[c]);
+    const auto i = static_cast<Eigen::Index>(c);
+    L_vv(i, i) += own[0];
+    if (L_qq) (*L_qq)(i, i) -= own[lanes];
+  }
+}
+
 /// Writes L_v and L_q by joint, and all that second_pass needs.
 void set_first_partials(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v,
                         Packed& w) {
@@ -56,6 +66,7 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   gather(tree, t, w.first, 0, L.L_v);
   gather(tree, t, w.first, 1, L.L_q);
   add_pairs(tree, t, rows, L);
+  add_own_pairs(t, L.L_vv, &L.L_qq);
   L.value = 0.5 * v.dot(L.L_v) - V;
   return L;
 }
@@ -82,6 +93,7 @@ MatX mass_matrix(const Tree& tree, const PackedTree& t, const VecRef& q) {
     M(di.velocity, dj.velocity) += M_ij;
     if (i != j) M(dj.velocity, di.velocity) += M_ij;
   });
+  add_own_pairs(t, M, nullptr);
   return M;
 }
 

@@ -16,6 +16,7 @@ void Assembly::check() {
   number_coordinates();
   add_frames();
   add_masses();
+  add_forces();
   m_.mass.gravity = d_.gravity;
   m_.packed = pack(m_.tree, m_.mass, d_.solver);
   check_moments();
@@ -30,6 +31,7 @@ Model Assembly::build() {
   m_.source = d_.source;
   m_.description = std::make_shared<const ModelDescription>(d_);
   add_pairs();
+  add_limits();
   warn_of_unsaid_contacts();
   return Model(std::move(m_));
 }

@@ -65,6 +65,12 @@ class Assembly {
   void check_moments();       // of what is welded together; warns of links impossible alone
   void check_masses() const;  // joints that move no mass
 
+  // joint_forces.cpp
+  void add_forces();  // armature and springs; damping, friction and actuators
+  void add_actuator(const ActuatorSpec& spec);
+  void add_limits();
+  int joint_index(const std::string& name, const std::string& user) const;
+
   // filter.cpp
   void add_filter();  // exclusions of links and of groups
   std::vector<std::pair<int, int>> adjacent_links() const;

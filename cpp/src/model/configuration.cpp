@@ -60,7 +60,14 @@ VecX Model::normalized(const VecRef& given) const {
   return q;
 }
 
-VecX Model::neutral() const { return saltus::neutral(data_->tree); }
+VecX Model::neutral() const {
+  VecX q = saltus::neutral(data_->tree);
+  for (const JointLimit& limit : data_->limits) {
+    double& x = q[limit.coordinate];
+    x = limit.stop.side > 0 ? std::max(x, limit.stop.bound) : std::min(x, limit.stop.bound);
+  }
+  return q;
+}
 
 VecX Model::integrate(const VecRef& q, const VecRef& dv) const {
   VecX out = checked_q(q, "q");

@@ -70,11 +70,15 @@ std::vector<FeltInertia> felt_inertias(const Tree& tree, const PackedTree& t) {
     const Drive& drive = tree.drive[i];
     felt[drive.velocity].scale += drive.multiplier * drive.multiplier * scale_of(t, w, t.slot[i]);
   }
+  const auto armature = [&](int c) {
+    return t.own.empty() ? 0.0 : *at(t.own, t.slot_of_velocity[c]);
+  };
   factorize(tree, t, w, 0, M);
   const VecX dense_pivots = tree.one_to_one ? VecX() : pivots_from_last(M.dense);
   for (int c = 0; c < tree.n_v; ++c) {
     felt[c].free = tree.one_to_one ? 1 / *at(M.inverse, t.slot[c]) : dense_pivots[c];
-    felt[c].locked = tree.one_to_one ? locked_inertia(w, t.slot[c]) : M.dense(c, c);
+    felt[c].locked = tree.one_to_one ? locked_inertia(w, t.slot[c]) + armature(c) : M.dense(c, c);
+    felt[c].scale += armature(c);
   }
   return felt;
 }

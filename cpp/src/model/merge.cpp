@@ -41,6 +41,10 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
     for (std::string* name : {&joint.name, &joint.parent, &joint.child}) rename(*name);
     if (joint.mimic) rename(joint.mimic->joint);
   }
+  for (ActuatorSpec& actuator : d.actuators) {
+    rename(actuator.name);
+    for (auto& [joint, ratio] : actuator.joints) rename(joint);
+  }
   for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
     for (auto& [first, second] : *pairs) rename(first), rename(second);
   }
@@ -64,7 +68,7 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
 }
 
 struct Names {
-  std::set<std::string> links, joints, half_spaces, groups;
+  std::set<std::string> links, joints, half_spaces, groups, actuators;
 };
 
 Names names_of(const ModelDescription& d) {
@@ -75,6 +79,7 @@ Names names_of(const ModelDescription& d) {
     if (!shape.name.empty()) names.half_spaces.insert(shape.name);
   }
   for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
+  for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
   return names;
 }
 
@@ -90,7 +95,8 @@ std::pair<std::string, std::string> clash(const Names& ours, const Names& others
       {"link", find(ours.links, others.links)},
       {"joint", find(ours.joints, others.joints)},
       {"half_space", find(ours.half_spaces, others.half_spaces)},
-      {"group", find(ours.groups, others.groups)}};
+      {"group", find(ours.groups, others.groups)},
+      {"actuator", find(ours.actuators, others.actuators)}};
   for (const auto& each : found) {
     if (!each.second.empty()) return each;
   }
@@ -275,6 +281,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   whole.add_joint(joint);
   append(other.links, d.links);
   append(other.joints, d.joints);
+  append(other.actuators, d.actuators);
   append(other.shapes, d.shapes);
   append(other.warnings, d.warnings);
   append(other.filter.links, d.filter.links);

@@ -38,9 +38,12 @@ void set_by_name(const std::map<std::string, double>& values, const std::string&
   }
 }
 
-void check_pair(int pair, int pairs) {
-  if (pair >= 0 && pair < pairs) return;
-  throw ModelError("no pair " + std::to_string(pair) + "; the model has " + std::to_string(pairs));
+void check_pair(int pair, const ModelData& model) {
+  const int last = model.first_limit + static_cast<int>(model.limits.size());
+  if (pair >= 0 && (pair < model.pairs.size() || (model.is_limit(pair) && pair < last))) return;
+  throw ModelError("no pair " + std::to_string(pair) + "; the model has " +
+                   std::to_string(model.pairs.size()) + ", and limits of joints from " +
+                   std::to_string(model.first_limit) + " to " + std::to_string(last - 1));
 }
 
 }  // namespace
@@ -88,11 +91,17 @@ int Model::link(const std::string& name) const {
 }
 
 std::string Model::pair_name(int pair) const {
+  check_pair(pair, *data_);
+  if (data_->is_limit(pair)) return data_->limit(pair).name;
   return saltus::pair_name(data_->shapes, this->pair(pair));
 }
 
 Pair Model::pair(int pair) const {
-  check_pair(pair, data_->pairs.size());
+  check_pair(pair, *data_);
+  if (data_->is_limit(pair)) {
+    const JointLimit& limit = data_->limit(pair);
+    return make_stop(data_->tree, limit.joint, limit.stop);
+  }
   const PairTable::Key key = data_->pairs.key(pair);
   return make_pair(data_->tree, data_->shapes, key.a, key.b, key.part);
 }
@@ -120,10 +129,15 @@ std::vector<TreeSolution> Model::solvers() const {
   return out;
 }
 
+ContactProperties ModelData::contact_properties(int pair) const {
+  if (is_limit(pair)) return {limit(pair).restitution, 0};
+  const PairTable::Key key = pairs.key(pair);
+  return materials.between(key.a, key.b);
+}
+
 ContactProperties Model::contact_properties(int pair) const {
-  check_pair(pair, data_->pairs.size());
-  const PairTable::Key key = data_->pairs.key(pair);
-  return data_->materials.between(key.a, key.b);
+  check_pair(pair, *data_);
+  return data_->contact_properties(pair);
 }
 
 State Model::state(const std::map<std::string, double>& q, const std::map<std::string, double>& v,

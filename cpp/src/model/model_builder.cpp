@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/assembly.hpp"
+#include "model/force_checks.hpp"
 #include "model/shape_checks.hpp"
 
 namespace saltus {
@@ -107,6 +108,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
   for (const double number : {joint.velocity, joint.effort, joint.damping, joint.friction}) {
     if (std::isnan(number)) fail("has a limit, damping or friction that is not a number");
   }
+  check_forces(joint);
   if (joint.mimic &&
       !(std::isfinite(joint.mimic->multiplier) && std::isfinite(joint.mimic->offset))) {
     fail("has a mimic multiplier or offset that is not finite");

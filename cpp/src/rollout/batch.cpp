@@ -36,10 +36,12 @@ constexpr std::size_t line = 128;
 
 class Crew {
  public:
-  Crew(const Plan& plan, std::span<const State> starts, OnFailure on_failure, BatchTrajectory& out)
+  Crew(const Plan& plan, std::span<const State> starts, const BatchOptions& options,
+       BatchTrajectory& out)
       : plan_(plan),
         starts_(starts),
-        on_failure_(on_failure),
+        options_(options),
+        on_failure_(options.on_failure),
         out_(out),
         first_failed_(static_cast<long>(starts.size())) {}
   ~Crew() {
@@ -66,6 +68,7 @@ class Crew {
 
   const Plan& plan_;
   const std::span<const State> starts_;
+  const BatchOptions& options_;
   const OnFailure on_failure_;
   BatchTrajectory& out_;
   std::vector<std::unique_ptr<Worker>> workers_;
@@ -123,7 +126,10 @@ void Crew::make_run(long i, Stepper& stepper, EnergyMeter& meter, Worker& me) {
   };
   RunOutcome outcome;  // moved at the end: neighbours in out_.outcome are other threads'
   try {
-    run(out_.model, plan_, starts_[i], go_on, stepper, meter, rows_of(out_, i), outcome);
+    const bool has_own = !options_.policies.empty();
+    const Policy& policy =
+        has_own ? options_.policies[static_cast<std::size_t>(i)] : options_.run.policy;
+    run(out_.model, plan_, starts_[i], go_on, policy, stepper, meter, rows_of(out_, i), outcome);
   } catch (const ModelError& error) {
     outcome.failure = error.what();
     fail_run(i);
@@ -185,7 +191,7 @@ int count_threads(int asked, std::size_t runs) {
 
 BatchTrajectory simulate_batch(const Model& model, std::span<const State> starts, double duration,
                                const BatchOptions& options) {
-  BatchTrajectory out{model, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  BatchTrajectory out{.model = model};
   simulate_batch(model, starts, duration, options, out);
   return out;
 }
@@ -195,10 +201,14 @@ void simulate_batch(const Model& model, std::span<const State> starts, double du
   Plan plan = make_plan(duration, options.run);
   const int threads = count_threads(options.threads, starts.size());
   check_starts(model, starts);
+  if (!options.policies.empty() && options.policies.size() != starts.size()) {
+    throw ModelError("controls of " + std::to_string(options.policies.size()) + " runs, and " +
+                     std::to_string(starts.size()) + " starts");
+  }
   check_memory(model, plan, static_cast<Eigen::Index>(starts.size()));
   Stepper(model, plan.step);  // refuses its options here and not in a thread
   out = empty_batch(model, plan, starts);
-  Crew crew(plan, starts, options.on_failure, out);
+  Crew crew(plan, starts, options, out);
   crew.start(threads);
   crew.wait(options.run.progress);
   if (options.run.progress && !crew.stopped()) options.run.progress(1);

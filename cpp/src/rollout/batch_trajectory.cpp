@@ -82,9 +82,11 @@ void check_starts(const Model& model, std::span<const State> starts) {
 BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<const State> starts) {
   const auto runs = static_cast<Eigen::Index>(starts.size());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  BatchTrajectory out{model, plan.step, row_times(plan, starts[0].t), {}, {}, {}, {}, {}, {}, {}};
+  BatchTrajectory out{.model = model, .options = plan.step, .t = row_times(plan, starts[0].t)};
   out.q.setConstant(runs * plan.rows, model.n_q(), nan);
   for (MatX* x : {&out.v, &out.p}) x->setConstant(runs * plan.rows, model.n_v(), nan);
+  out.control.setConstant(runs * plan.rows, model->forces.n_u(), nan);
+  out.work.setConstant(runs * plan.rows, model->forces.n_u() + 3, nan);
   for (MatX* x : {&out.kinetic, &out.potential, &out.shadow}) x->setConstant(runs, plan.rows, nan);
   out.outcome.resize(starts.size());
   for (RunOutcome& each : out.outcome) {
@@ -100,9 +102,15 @@ BatchTrajectory empty_batch(const Model& model, const Plan& plan, std::span<cons
 RunRows rows_of(BatchTrajectory& batch, Eigen::Index i) {
   const Eigen::Index rows = batch.t.size();
   const auto energies = [&](MatX& x) { return Eigen::Map<VecX>(x.data() + i * rows, rows); };
-  return {batch.q.middleRows(i * rows, rows), batch.v.middleRows(i * rows, rows),
-          batch.p.middleRows(i * rows, rows), energies(batch.kinetic),
-          energies(batch.potential),          energies(batch.shadow)};
+  const auto own = [&](MatX& x) { return x.middleRows(i * rows, rows); };
+  return {own(batch.q),
+          own(batch.v),
+          own(batch.p),
+          own(batch.control),
+          own(batch.work),
+          energies(batch.kinetic),
+          energies(batch.potential),
+          energies(batch.shadow)};
 }
 
 Trajectory BatchTrajectory::run(int i) const {
@@ -117,6 +125,8 @@ Trajectory BatchTrajectory::run(int i) const {
   out.q = q.middleRows(first, rows);
   out.v = v.middleRows(first, rows);
   out.p = p.middleRows(first, rows);
+  out.control = control.middleRows(first, rows);
+  out.work = work.middleRows(first, rows);
   out.kinetic = kinetic.row(i).head(rows);
   out.potential = potential.row(i).head(rows);
   out.shadow = shadow.row(i).head(rows);
@@ -129,7 +139,8 @@ VecX BatchTrajectory::energy_error() const {
   for (int i = 0; i < runs(); ++i) {
     const Eigen::Index rows = outcome[i].rows;
     out[i] =
-        saltus::energy_error(VecX(kinetic.row(i).head(rows)), VecX(potential.row(i).head(rows)));
+        saltus::energy_error(VecX(kinetic.row(i).head(rows)), VecX(potential.row(i).head(rows)),
+                             work.middleRows(i * t.size(), rows));
   }
   return out;
 }

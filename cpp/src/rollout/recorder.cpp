@@ -22,16 +22,20 @@ Energies energies(const Model& model, const State& state, double h) {
 }
 
 Trajectory empty_trajectory(const Model& model, Eigen::Index rows) {
-  Trajectory run{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
+  Trajectory run{.model = model};
   for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->setZero(rows);
   run.q.setZero(rows, model.n_q());
   for (MatX* x : {&run.v, &run.p}) x->setZero(rows, model.n_v());
+  run.control.setZero(rows, model->forces.n_u());
+  run.work.setZero(rows, model->forces.n_u() + 3);
   return run;
 }
 
 void truncate(Trajectory& run, Eigen::Index rows) {
   for (VecX* x : {&run.t, &run.kinetic, &run.potential, &run.shadow}) x->conservativeResize(rows);
-  for (MatX* x : {&run.q, &run.v, &run.p}) x->conservativeResize(rows, Eigen::NoChange);
+  for (MatX* x : {&run.q, &run.v, &run.p, &run.control, &run.work}) {
+    x->conservativeResize(rows, Eigen::NoChange);
+  }
 }
 
 void record(const State& state, const EnergyMeter& meter, Eigen::Index row, RunRows& rows) {
@@ -59,9 +63,10 @@ void take_outcome(RunOutcome&& outcome, Trajectory& run) {
   run.complete = outcome.complete;
 }
 
-double energy_error(const VecRef& kinetic, const VecRef& potential) {
+double energy_error(const VecRef& kinetic, const VecRef& potential,
+                    const Eigen::Ref<const MatX>& work) {
   if (kinetic.size() == 0) return 0;
-  const VecX H = kinetic + potential;
+  const VecX H = kinetic + potential - work.rowwise().sum();
   const double error = (H.array() - H[0]).abs().maxCoeff(), scale = kinetic.maxCoeff();
   // where nothing moves, both are the rounding of the potential
   const double rounding =
@@ -69,6 +74,6 @@ double energy_error(const VecRef& kinetic, const VecRef& potential) {
   return error <= rounding && scale <= rounding ? 0 : error / scale;
 }
 
-double Trajectory::energy_error() const { return saltus::energy_error(kinetic, potential); }
+double Trajectory::energy_error() const { return saltus::energy_error(kinetic, potential, work); }
 
 }  // namespace saltus

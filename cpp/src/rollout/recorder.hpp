@@ -19,6 +19,7 @@ void truncate(Trajectory& run, Eigen::Index rows);
 /// Where the rows of one run go: all of a trajectory's, or a batch's share.
 struct RunRows {
   Eigen::Ref<MatX> q, v, p;                     ///< (rows, n_q)
+  Eigen::Ref<MatX> control, work;               ///< (rows, n_u), (rows, n_u + 3)
   Eigen::Ref<VecX> kinetic, potential, shadow;  ///< (rows) [J]
 };
 
@@ -27,7 +28,8 @@ void record(const State& state, const EnergyMeter& meter, Eigen::Index row, RunR
 /// Contacts of steps after the last row are left out.
 void take_outcome(RunOutcome&& outcome, Trajectory& run);
 
-/// As Trajectory::energy_error; both are (rows).
-double energy_error(const VecRef& kinetic, const VecRef& potential);
+/// As Trajectory::energy_error; all are of as many rows.
+double energy_error(const VecRef& kinetic, const VecRef& potential,
+                    const Eigen::Ref<const MatX>& work);
 
 }  // namespace saltus

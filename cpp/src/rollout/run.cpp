@@ -19,6 +19,8 @@ void check_numbers(double duration, const SimulateOptions& options) {
     text << "duration = " << duration << " s; it must be positive and finite";
   } else if (options.record_every < 1) {
     text << "record_every = " << options.record_every << "; it must be at least 1";
+  } else if (options.control_every < 1) {
+    text << "control_every = " << options.control_every << "; it must be at least 1";
   }
   if (!text.str().empty()) throw ModelError(text.str());
 }
@@ -83,13 +85,15 @@ Plan make_plan(double duration, const SimulateOptions& options) {
   plan.steps = count_steps(duration, options.step.h);
   plan.record_every = options.record_every;
   plan.record_contacts = options.record_contacts;
+  plan.control_every = options.control_every;
   plan.rows = (plan.steps + options.record_every - 1) / options.record_every + 1;
   return plan;
 }
 
 void check_memory(const Model& model, Plan& plan, Eigen::Index runs) {
   const double doubles = static_cast<double>(runs) * static_cast<double>(plan.rows);
-  const double gigabytes = doubles * (4 + model.n_q() + 2 * model.n_v()) * 8e-9;
+  const double gigabytes =
+      doubles * (4 + model.n_q() + 2 * model.n_v() + 2 * model->forces.n_u() + 3) * 8e-9;
   const double bytes = static_cast<double>(runs) * sizeof(RecordedContact);  // one contact a run
   plan.most_contacts = (most_gigabytes - gigabytes) * 1e9 / bytes;
   if (gigabytes <= most_gigabytes) return;
@@ -110,25 +114,53 @@ VecX row_times(const Plan& plan, double t0) {
   return t;
 }
 
+namespace {
+
+/// Controls of a run, and the work done in it.
+struct Driven {
+  ForceInput input;
+  VecX work;  ///< (n_u + 3) [J] until now
+
+  void record(Eigen::Index row, RunRows& rows) const {
+    rows.work.row(row) = work;
+    if (input.control.size() > 0) rows.control.row(row) = input.control;
+    if (input.control.size() == 0) rows.control.row(row).setZero();
+  }
+};
+
+}  // namespace
+
 void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
-         Stepper& stepper, EnergyMeter& meter, RunRows rows, RunOutcome& outcome) {
+         const Policy& policy, Stepper& stepper, EnergyMeter& meter, RunRows rows,
+         RunOutcome& outcome) {
   stepper.forget();
+  Driven driven{{}, VecX::Zero(model->forces.n_u() + 3)};
   if (plan.record_contacts) outcome.contacts.emplace();
   State state = start;
   state.q = model.checked_q(start.q, "state.q");
   measure(*model, state, plan.step.h, meter);
   record(state, meter, 0, rows);
+  const StepReport nothing;
+  bool is_measured = true;
   long k = 0;
   for (; k < plan.steps && go_on(k); ++k) {
-    stepper.step(state);
+    if (policy && k % plan.control_every == 0) {
+      if (!is_measured) measure(*model, state, plan.step.h, meter);
+      policy({k, state, meter.v, k == 0 ? nothing : stepper.report()}, driven.input);
+    }
+    if (is_measured) driven.record(outcome.rows - 1, rows);
+    stepper.step(state, driven.input);
+    driven.work += stepper.report().work;
     if (plan.record_contacts) {
       const double t = start.t + static_cast<double>(k + 1) * plan.step.h;
       add_contacts(stepper.report(), t, plan, outcome);
     }
     add_report(stepper.report(), outcome);
-    if ((k + 1) % plan.record_every != 0 && k + 1 != plan.steps) continue;
+    is_measured = (k + 1) % plan.record_every == 0 || k + 1 == plan.steps;
+    if (!is_measured) continue;
     measure(*model, state, plan.step.h, meter);
     record(state, meter, outcome.rows++, rows);
+    driven.record(outcome.rows - 1, rows);
   }
   outcome.complete = k == plan.steps;
 }

@@ -16,6 +16,7 @@ struct Plan {
   long steps = 0;
   int record_every = 1;
   bool record_contacts = false;
+  int control_every = 1;
   double most_contacts = 0;  ///< that a run may record, written by check_memory
   Eigen::Index rows = 0;     ///< the start, every n-th step and the last
 };
@@ -37,6 +38,7 @@ using GoOn = std::function<bool(long)>;
 /// what Stepper::advance throws. The stepper is made with plan.step; what it did before has no
 /// influence, nor has the meter's.
 void run(const Model& model, const Plan& plan, const State& start, const GoOn& go_on,
-         Stepper& stepper, EnergyMeter& meter, RunRows rows, RunOutcome& outcome);
+         const Policy& policy, Stepper& stepper, EnergyMeter& meter, RunRows rows,
+         RunOutcome& outcome);
 
 }  // namespace saltus

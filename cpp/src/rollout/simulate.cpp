@@ -78,8 +78,9 @@ void simulate(const Model& model, const State& start, double duration,
     take_outcome(std::move(outcome), out);
   };
   try {
-    run(model, plan, start, go_on, stepper, meter,
-        {out.q, out.v, out.p, out.kinetic, out.potential, out.shadow}, outcome);
+    run(model, plan, start, go_on, options.policy, stepper, meter,
+        {out.q, out.v, out.p, out.control, out.work, out.kinetic, out.potential, out.shadow},
+        outcome);
   } catch (...) {
     keep();
     throw;

@@ -61,8 +61,9 @@ Vec6 screw(const Joint& joint, const Vec3& axis, const Vec3& p) {
 // The axes of a ball's joints are those of its placement, which the third one's frame leaves.
 void set_configuration(const Tree& tree, const VecRef& q, Kinematics& kin) {
   for (int i = 0; i < tree.joints(); ++i) {
-    set_rotation(tree, i, displacement(tree, i, q), kin);
     JointMotion& m = kin.joint[i];
+    m.s = displacement(tree, i, q);
+    set_rotation(tree, i, m.s, kin);
     m.S.head<3>() = m.R.col(2);  // until the screw is written below
     if (tree.joint[i].is_ball() && tree.joint[i].axis == 2) {
       m.R = m.R * quaternion(ball_of(tree, i), q).toRotationMatrix();

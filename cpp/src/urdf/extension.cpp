@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "urdf/actuators.hpp"
 #include "urdf/attributes.hpp"
 #include "urdf/numbers.hpp"
 #include "urdf/shape_elements.hpp"
@@ -173,6 +174,8 @@ void add(const Document& document, const XMLElement& element, NamesOf& of, Model
     }
   } else if (kind == "contact") {
     set_contact(document, element, builder);
+  } else {
+    add_force_element(document, element, builder);
   }
 }
 

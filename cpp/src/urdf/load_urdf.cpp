@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "urdf/actuators.hpp"
 #include "urdf/checks.hpp"
 #include "urdf/extension.hpp"
 #include "urdf/geometry.hpp"
@@ -60,8 +61,9 @@ void set_limits(const urdf::Joint& joint, JointSpec& spec) {
   }
 }
 
-JointSpec joint_spec(const urdf::Joint& joint, const std::string& type) {
+JointSpec joint_spec(const urdf::Joint& joint, const std::string& type, JointEffects effects) {
   JointSpec spec;
+  spec.effects = effects;
   spec.name = joint.name;
   spec.type = joint_type(type);
   spec.parent = joint.parent_link_name;
@@ -97,14 +99,14 @@ void add_root_joint(const Document& document, JointType type, const std::string&
 
 void add_links_and_joints(const Document& document, const urdf::ModelInterface& parsed,
                           CollisionMeshes& meshes, const std::string& fixed_link,
-                          ModelBuilder& builder) {
+                          JointEffects effects, ModelBuilder& builder) {
   for (const XMLElement* e : document.all("link")) {
     const std::string name = attribute(*e, "name");
     if (name != fixed_link) builder.add_link({name, inertia(*parsed.getLink(name))});
   }
   for (const XMLElement* e : document.all("joint")) {
     const urdf::Joint& joint = *parsed.getJoint(attribute(*e, "name"));
-    builder.add_joint(joint_spec(joint, attribute(*e, "type")));
+    builder.add_joint(joint_spec(joint, attribute(*e, "type"), effects));
   }
   for (const XMLElement* e : document.all("link")) {
     add_shapes(*e, *parsed.getLink(attribute(*e, "name")), meshes, builder);
@@ -166,7 +168,8 @@ ModelBuilder read_urdf(const std::string& path_or_text, const UrdfOptions& optio
   CollisionMeshes meshes(document, folders, options.meshes);
   located(document, [&] {
     if (!is_fixed) add_root_joint(document, options.root_joint, world, root, builder);
-    add_links_and_joints(document, *parsed, meshes, world, builder);
+    add_links_and_joints(document, *parsed, meshes, world, options.effects, builder);
+    add_transmissions(document, builder);
   });
   meshes.warn(builder);
   warn_of_visuals(document, folders, builder);

@@ -97,7 +97,30 @@ ElementRule extension() {
        .numbers = {{"restitution"}, {"friction"}},
        .texts = {{"material1"}, {"material2"}},
        .strict = true},
-      {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}};
+      {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true},
+      {.name = "motor",
+       .numbers = {{"gear"}, {"effort", 1, !required, positive, may_be_infinite}},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "position_servo",
+       .numbers = {{"kp", 1, required},
+                   {"kd"},
+                   {"effort", 1, !required, positive, may_be_infinite}},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "velocity_servo",
+       .numbers = {{"kv", 1, required}, {"effort", 1, !required, positive, may_be_infinite}},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "joint",
+       .numbers = {{"armature"},
+                   {"damping"},
+                   {"friction"},
+                   {"stiffness"},
+                   {"rest"},
+                   {"limit_restitution"}},
+       .texts = {{"name", required}},
+       .strict = true}};
   children.insert(children.end(), others.begin(), others.end());
   return {.name = "saltus", .children = children, .strict = true};
 }

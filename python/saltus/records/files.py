@@ -16,6 +16,7 @@ from saltus._core import (
     ImpactLaw,
     ImpactOrder,
     ImpactProblem,
+    JointEffects,
     JointType,
     MeshUse,
     Model,
@@ -46,6 +47,7 @@ FORMAT = "saltus trajectory"
 VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
 MOST = ("max_iterations", "max_impacts", "max_halvings", "max_impulses")
 BOUNDS = (*MOST, "rest", "simultaneous", "strict")
+NAMES = ("coordinate_names", "velocity_names", "pair_names", "certificates", "control_names")
 OPTIONS = ("h", "collisions", *BOUNDS)
 
 Kind = TypeVar("Kind", bound=Recording)
@@ -59,6 +61,7 @@ class UrdfOptions(TypedDict):
     meshes: MeshUse
     contact: ContactProperties | None
     floor: bool
+    effects: JointEffects
 
 
 def save(run: Recording, path: str | os.PathLike[str]) -> None:
@@ -121,11 +124,15 @@ def _write(run: Recording, file: h5py.File) -> None:
     )
     if run.recorded_contacts is not None:
         file["contacts"] = run.recorded_contacts
+    for name in ("control", "work"):
+        rows = getattr(run, f"recorded_{name}")
+        if rows is not None:
+            file[name] = rows
     # The law by name, so that other programs can read it.
     law = h5py.enum_dtype({law.name: law.value for law in ImpactLaw}, basetype="u1")
     fields = [(name, law if name == "law" else IMPACT[name]) for name in IMPACT.names or ()]
     file["impacts"] = run.impacts.astype(np.dtype(fields))
-    for name in ("coordinate_names", "velocity_names", "pair_names", "certificates"):
+    for name in NAMES:
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
     options = None if run.model is None else _urdf_options(run.model)
     if run.model is None or options is None:
@@ -137,6 +144,7 @@ def _write(run: Recording, file: h5py.File) -> None:
     file.attrs["solver"] = options["solver"].name
     file.attrs["meshes"] = options["meshes"].name
     file.attrs["floor"] = options["floor"]
+    file.attrs["effects"] = options["effects"].value
     if options["contact"] is not None:
         file.attrs["restitution"] = options["contact"].restitution
         file.attrs["friction"] = options["contact"].friction
@@ -159,6 +167,9 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
     arrays["fallbacks"] = fallbacks_of_file(file.get("fallbacks"))
     if "contacts" in file:
         arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
+    for name in ("control", "work"):
+        if name in file:
+            arrays[f"recorded_{name}"] = file[name][()]
     for array in arrays.values():
         array.flags.writeable = False
     numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
@@ -181,12 +192,15 @@ def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) ->
             meshes=MeshUse[file.attrs.get("meshes", "none")],
             contact=_contact(file),
             floor=bool(file.attrs.get("floor", False)),
+            effects=JointEffects(int(file.attrs.get("effects", 0))),  # older files: none acted
         )
         model = build_quietly(builder)
-        if not pairs and model.n_pairs <= LISTED_PAIRS:
+        if set(pairs) <= set(model.limit_names) and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
     if model is not None:
         _check_model(model, coordinates, pairs, path)
+    if "control_names" in file:
+        arrays["control_names"] = tuple(file["control_names"].asstr()[()])
     return kind(
         model=model,
         options=_step_options(file, options),
@@ -245,7 +259,7 @@ def _check_model(
     few = model.n_pairs <= LISTED_PAIRS  # else the run names those that collided
     for what, own, others in (
         ("coordinates", coordinates, model.coordinate_names),
-        ("pairs", pairs, model.pair_names if few else list(pairs)),
+        ("pairs", pairs, [*model.pair_names, *model.limit_names] if few else list(pairs)),
     ):
         if list(own) != others:
             raise ModelError(
@@ -267,8 +281,9 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
     wanted = _parts(model)
     floors = {False, any(isinstance(s.shape, HalfSpace) for s in model.shapes)}
-    for floor, meshes, root_joint, solver in product(
-        floors, (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver
+    acting = (JointEffects.all, JointEffects.none)
+    for floor, meshes, root_joint, solver, effects in product(
+        floors, (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver, acting
     ):
         options: UrdfOptions = {
             "root_joint": root_joint,
@@ -276,6 +291,7 @@ def _urdf_options(model: Model) -> UrdfOptions | None:
             "meshes": meshes,
             "contact": model.default_contact,
             "floor": floor,
+            "effects": effects,
         }
         try:
             again = build_quietly(read_urdf(model.source, **options))
@@ -296,4 +312,5 @@ def _parts(model: Model) -> tuple[object, ...]:
     pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
     if model.n_pairs <= LISTED_PAIRS:
         pairs = [(n, repr(model.contact_properties(i))) for i, n in enumerate(model.pair_names)]
+    names = (*names, model.limit_names, model.control_names, model.damping.tolist())
     return *names, pairs, [repr(trees) for trees in model.solvers]

@@ -19,6 +19,7 @@ from saltus.records.tables import (
     NUMBERS,
     RUNGS,
     SETTLING,
+    SOURCES,
     Array,
     counted,
     index_of,
@@ -56,6 +57,25 @@ class Recording:
     complete: bool
     energy_error: float
     recorded_contacts: npt.NDArray[np.void] | None = None
+    control_names: tuple[str, ...] = ()
+    recorded_control: Array | None = None
+    recorded_work: Array | None = None
+
+    @property
+    def control(self) -> Array:
+        """What actuators were told in the steps from each row on, shape (rows, n_u)."""
+        if self.recorded_control is None:
+            return np.zeros((len(self.t), len(self.control_names)))
+        return self.recorded_control
+
+    @property
+    def work(self) -> dict[str, Array]:
+        """[J] done on the model until each row, by source, see `Trajectory`."""
+        names = (*self.control_names, *SOURCES)
+        done = self.recorded_work
+        if done is None:
+            done = np.zeros((len(self.t), len(names)))
+        return {name: done[:, k] for k, name in enumerate(names)}
 
     @property
     def contacts(self) -> npt.NDArray[np.void]:
@@ -101,6 +121,9 @@ class Recording:
             fallbacks=fallbacks,
             recorded_contacts=contacts,
             certificates=tuple(core.certificates),
+            control_names=tuple(model.control_names),
+            recorded_control=core.control,
+            recorded_work=core.work,
             **{name: getattr(core, name) for name in (*ARRAYS, *NUMBERS)},
         )
 

@@ -37,6 +37,8 @@ ACTED: list[Any] = [
 IMPULSE = np.dtype([("impact", "i8"), *ACTED])
 CONTACT = np.dtype([("row", "i8"), ("t", "f8"), ("impact", "i8"), *ACTED])
 
+SOURCES = ("damping", "friction", "applied")  # of work, besides actuators
+
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
@@ -62,7 +64,7 @@ def fallbacks_of_file(stored: h5py.Dataset | None) -> npt.NDArray[np.void]:
 def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:
     """Name the pairs that `events["pair"]` refer to, counting anew where they are too many."""
     if model.n_pairs <= LISTED_PAIRS:
-        return tuple(model.pair_names)
+        return (*model.pair_names, *model.limit_names)
     numbers = np.unique(np.concatenate([event["pair"] for event in events]))
     numbers = numbers[numbers >= 0]
     for event in events:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._core import (
@@ -16,12 +18,13 @@ from saltus._core import (
     State,
     StepError,
     StepOptions,
+    Wrench,
 )
 from saltus.records.tables import counted
 from saltus.runs.batch_trajectory import BatchTrajectory
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.simulate import Law, StepBounds, StepWarning, check_types, keep_rows
-from saltus.runs.starts import Starts, to_states
+from saltus.runs.starts import Starts, to_controls, to_states
 from saltus.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -39,6 +42,9 @@ def simulate_batch(
     collisions: bool = True,
     record_every: int = 1,
     record_contacts: bool = False,
+    control: ArrayLike | Mapping[str, float] | None = None,
+    forces: Mapping[str, Wrench] | None = None,
+    qfrc: Mapping[str, ArrayLike] | ArrayLike | None = None,
     states: Sequence[State] | None = None,
     threads: int | None = None,
     on_failure: OnFailure | str = OnFailure.go_on,
@@ -74,6 +80,14 @@ def simulate_batch(
         at least duration / h.
     record_contacts : bool
         Whether to record every impulse between bodies, as `contacts` of each run `batch[i]`.
+    control : mapping of names to values, or array_like, optional
+        What actuators are told: the same in all runs and steps, as a mapping or shape (n_u,); of
+        each run, shape (B, n_u); of each run and step, shape (B, steps, n_u), the last in all steps
+        after it.
+    forces : mapping of links' names to Wrench, optional
+        Forces and torques on links, in all runs and steps.
+    qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+        [N m | N] forces on the coordinates, in all runs and steps.
     states : sequence of State, optional
         The starts in place of `q` and `v`, all at the same time.
     threads : int, optional
@@ -127,6 +141,9 @@ def simulate_batch(
                 options=options,
                 record_every=record_every,
                 record_contacts=record_contacts,
+                control=to_controls(model, control, len(states)),
+                forces=forces,
+                qfrc=qfrc,
                 threads=threads or 0,
                 on_failure=on_failure,
                 progress=report,

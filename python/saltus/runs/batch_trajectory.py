@@ -42,8 +42,10 @@ class BatchTrajectory:
         Number of impacts.
     rows : numpy.ndarray of int, shape (B,)
         Rows that were reached.
+    control : numpy.ndarray, shape (B, rows, n_u)
+        As in `Trajectory`.
     energy_error : numpy.ndarray, shape (B,)
-        Greatest |H(t) - H(0)| over the greatest kinetic energy of each run.
+        Greatest |H(t) - H(0) - work(t)| over the greatest kinetic energy of each run.
     complete : numpy.ndarray of bool, shape (B,)
         False for runs that failed, or were stopped before their end.
     failures : dict of int to str
@@ -61,6 +63,7 @@ class BatchTrajectory:
     kinetic: Array
     potential: Array
     shadow: Array
+    control: Array
     total: Array
     impacts: npt.NDArray[np.int64]
     rows: npt.NDArray[np.int64]
@@ -72,7 +75,7 @@ class BatchTrajectory:
     @classmethod
     def from_core(cls, core: _core.BatchTrajectory) -> BatchTrajectory:
         """Wrap what the compiled part returns; large arrays are not copied."""
-        names = ("t", "q", "v", "p", "kinetic", "potential", "shadow")
+        names = ("t", "q", "v", "p", "kinetic", "potential", "shadow", "control")
         numbers = ("impacts", "rows", "energy_error", "complete", "failures")
         arrays = {name: getattr(core, name) for name in (*names, *numbers)}
         arrays["total"] = core.kinetic + core.potential

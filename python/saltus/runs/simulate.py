@@ -20,14 +20,22 @@ from saltus._core import (
     State,
     StepError,
     StepOptions,
+    Wrench,
 )
 from saltus.records.tables import counted
+from saltus.runs.moment import Moment
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+Control = (
+    Mapping[str, float]
+    | ArrayLike
+    | Callable[[Moment], Mapping[str, float] | ArrayLike | None]
+    | None
+)
 Law = ImpactLaw | str | Callable[[ImpactProblem], ArrayLike]
 
 
@@ -60,6 +68,10 @@ def simulate(
     collisions: bool = True,
     record_every: int = 1,
     record_contacts: bool = False,
+    control: Control = None,
+    control_every: int = 1,
+    forces: Mapping[str, Wrench] | None = None,
+    qfrc: Mapping[str, ArrayLike] | ArrayLike | None = None,
     state: State | None = None,
     progress: bool | Progress | None = None,
     **bounds: Unpack[StepBounds],
@@ -88,6 +100,18 @@ def simulate(
     record_contacts : bool
         Whether to record every impulse between bodies, of all steps, as `contacts` of the run:
         its point, its normal and its size.
+    control : mapping of names to values, array_like or callable, optional
+        What actuators are told: the same in all steps, as a mapping (those not named are 0) or an
+        array of shape (n_u,); an array of shape (steps, n_u), row k in step k, the last row in all
+        after it; or a function of a `Moment` that returns one of the first two, or None for no
+        change. A function is asked before steps, as a digital controller is; servos of the model
+        act within steps.
+    control_every : int
+        Steps between the times that the function is asked.
+    forces : mapping of links' names to Wrench, optional
+        Forces and torques on links, in all steps.
+    qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+        [N m | N] forces on the coordinates, in all steps.
     state : State, optional
         The start in place of `q` and `v`, for instance `run.state(-1)` to continue a run.
     progress : bool or callable, optional
@@ -135,6 +159,10 @@ def simulate(
                 options=options,
                 record_every=record_every,
                 record_contacts=record_contacts,
+                control=control,
+                control_every=control_every,
+                forces=forces,
+                qfrc=qfrc,
                 progress=report,
             )
         except BaseException as error:

@@ -53,6 +53,38 @@ def to_states(model: Model, q: Starts, v: Starts) -> list[State]:
     return _core.states(model, *(np.broadcast_to(x, (runs, x.shape[-1])) for x in arrays))
 
 
+def to_controls(
+    model: Model, control: ArrayLike | Mapping[str, float] | None, runs: int
+) -> list[Array]:
+    """Return the rows (steps, n_u) of each run; none where nothing is told."""
+    if control is None:
+        return []
+    names = list(model.control_names)
+    if callable(control):
+        raise TypeError(
+            "control is a function; the runs of a batch are on several threads and take arrays, "
+            "shape (runs, steps, n_u); simulate takes functions"
+        )
+    if isinstance(control, Mapping):
+        unknown = [name for name in control if name not in names]
+        if unknown:
+            raise ModelError(
+                f'no actuator "{unknown[0]}"; there are {", ".join(names) or "none"}'
+            )
+        control = [control.get(name, 0.0) for name in names]
+    array = _numbers("control", control)
+    if not 1 <= array.ndim <= 3 or array.shape[-1] != len(names):
+        raise ModelError(
+            f"control has shape {array.shape}; it must have shape (n_u,), (runs, n_u) or "
+            f"(runs, steps, n_u), a column for each of {', '.join(names) or 'no actuator'}"
+        )
+    if array.ndim > 1 and len(array) != runs:
+        raise ModelError(f"control has {counted(len(array), 'row')} for {counted(runs, 'run')}")
+    if array.ndim < 3:
+        array = np.broadcast_to(array.reshape(-1, 1, len(names)), (runs, 1, len(names)))
+    return [np.array(rows) for rows in array]
+
+
 def _to_array(space: _Space, x: Starts) -> Array:
     """Return the array (B, n) that is meant, (n,) where it is the same for all runs."""
     n = len(space.names)

@@ -72,8 +72,15 @@ class Trajectory(Recording):
         [largest momentum] the largest of all steps.
     complete : bool
         False if the run was stopped or failed before its end.
+    control : numpy.ndarray, shape (rows, n_u)
+        What actuators (`control_names`) were told in the steps from each row on; in the last row
+        as in the step before it.
+    work : dict of str to numpy.ndarray, shape (rows,)
+        [J] done on the model until each row: by each actuator, by "damping", by dry "friction",
+        and by the "applied" forces.
     energy_error : float
-        Greatest |H(t) - H(0)| over the greatest kinetic energy of the run.
+        Greatest |H(t) - H(0) - work(t)| over the greatest kinetic energy of the run. Impacts with
+        restitution below 1 and friction between bodies count as error.
     """
 
     def save(self, path: str | os.PathLike[str]) -> None:

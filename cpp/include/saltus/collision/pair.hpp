@@ -72,21 +72,33 @@ inline bool operator==(const PartKind& kind, PairKind other) {
   return kinds[kind.index()] == other;
 }
 
+/// A stop of a joint, in place of shapes: phi = side (s - bound) of its displacement s.
+struct Stop {
+  int side = 0;      ///< +1 a lower, -1 an upper limit; 0: the pair is of shapes
+  double bound = 0;  ///< [rad | m]
+};
+
 /// epsilon_phi by the size of the smaller shape: far above the rounding of positions (1e-16 of the
 /// scene) and far below what anybody can see.
 inline constexpr double relative_touch = 1e-10;
 
-/// One gap that is watched: two shapes, or a part of one and the other.
+/// One gap that is watched: two shapes, or a part of one and the other, or a stop.
 struct Pair {
-  int a = -1, b = -1;  ///< indices of shapes
-  int part = 0;        ///< which of the gaps of these two shapes
+  int a = -1, b = -1;  ///< indices of shapes; -1 of a stop
+  Stop stop;
+  int part = 0;  ///< which of the gaps of these two shapes
   PartKind kind;
   Placed on_a, on_b;         ///< the parts that face each other; b alone may be a half-space
   std::vector<Vec3> inward;  ///< corner, rim: along the edges that meet in it, in its frame; none
                              ///< where it is round or the other has no flat faces
   std::vector<ChainJoint> chain;  ///< from b to a: nearest to b first
   double touch = 0;               ///< [m] epsilon_phi: |phi| below this is touching
+
+  bool is_stop() const { return stop.side != 0; }
 };
+
+/// The stop of a one-degree joint of the tree; phi has the unit of its displacement.
+SALTUS_EXPORT Pair make_stop(const Tree& tree, int joint, const Stop& stop);
 
 /// Joints between two joint frames (-1: the world), ordered from b to a.
 SALTUS_EXPORT std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a);

@@ -24,6 +24,11 @@ SALTUS_EXPORT BodyInertia transform(const Pose& X_PB, const BodyInertia& body_B)
 struct MassModel {
   std::vector<BodyInertia> body;     ///< (n) by joint
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
+  /// What a coordinate has of its own: a motor's rotor, T = armature v^2 / 2, and a spring,
+  /// V = stiffness (q - rest)^2 / 2. By velocity, 0 of balls; empty where no coordinate has any.
+  VecX armature;   ///< (n_v) [kg m^2 | kg]
+  VecX stiffness;  ///< (n_v) [N m/rad | N/m]
+  VecX rest;       ///< (n_v) [rad | m]
 };
 
 }  // namespace saltus

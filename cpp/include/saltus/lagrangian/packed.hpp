@@ -24,6 +24,8 @@
 // and all others L_v' = L_v, L_q' = L_q.
 //
 // Plain loops of the same formulas, in the tests, are the reference that these are compared with.
+// A force Q(q, v) on the coordinates acts in an arc as L_q does: who adds it to L_q, after
+// first_pass and before arc_pass, has it in all that follows (theory, F1).
 #pragma once
 
 #include "saltus/lagrangian/packed_tree.hpp"
@@ -58,6 +60,13 @@ struct Packed {
   Blocks<2> ball_arc;  ///< c1, c2 in the slot of the third joint; empty without balls
   // second_pass
   Blocks<15> U_F_G;
+  /// Q_q, Q_v: slopes of a force on one coordinate by that coordinate, in the slots that
+  /// PackedTree::slot_of_velocity names. Written by whoever adds forces to L_q; else empty.
+  Blocks<2> slope;
+  /// Forces on several one-degree coordinates at once, each along a column g of `coupled`: their
+  /// slopes by g.q and g.v. By the same; without columns where there are none.
+  MatX coupled;        ///< (n_v, r)
+  VecX coupled_slope;  ///< (2 r) of each column by g.q, by g.v
 };
 
 /// s <- what the drives make of q (n_q).

@@ -19,6 +19,10 @@
 // solve takes: callers give momenta. Its generators are turned, and all nine of its entries are
 // J_ij = t_i.w_j + Delta_ij, so that the sweep takes the three joints at once (theory, O2).
 //
+// What one coordinate feels of itself alone, armature and the slopes of springs, damping and
+// servos, is on the diagonal, a + tau^2/4 (k - Q_q) - tau/2 Q_v, and adds to its pivot; of a ball
+// -tau/2 C Q_v to Delta (theory, F1).
+//
 // Mimic joints tie distant branches together; there the dense matrix C^T J C is factored.
 #pragma once
 
@@ -42,6 +46,8 @@ struct PackedMatrix {
   /// balls. Not written where tau = 0.
   Blocks<27> ball;
   Blocks<8> ball_k;  ///< scratch: coefficients of K and C
+  /// What a coordinate adds to its own pivot; empty where none does. Of balls it is in Delta.
+  Blocks<1> added;
 
   // lu
   PackedRows lower, upper;  ///< row j: J_ji and J_ij, eliminated
@@ -63,6 +69,15 @@ struct PackedMatrix {
   MatX dense;                    ///< (n_v, n_v)
   Eigen::PartialPivLU<MatX> lu;  ///< of dense
   VecX solution;                 ///< (n_v) scratch of solve
+
+  // forces on several coordinates, J += G D G^T, D = -tau/2 (slope_v + tau/2 slope_q), by
+  // J^-1 - J^-1 G (1 + D G^T J^-1 G)^-1 D G^T J^-1
+  bool is_coupled = false;
+  MatX G, JG;                          ///< (n_v, r) columns, and J^-1 of them
+  VecX column;                         ///< (n_v) scratch
+  VecX D, Gx, Gy;                      ///< (r)
+  MatX inner;                          ///< (r, r)
+  Eigen::PartialPivLU<MatX> inner_lu;  ///< of 1 + D G^T J^-1 G
 
   Blocks<1> x;  ///< scratch of solve, by slot
 };

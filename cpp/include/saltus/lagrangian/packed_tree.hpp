@@ -86,14 +86,15 @@ struct PackedBall {
 struct PackedTree {
   std::vector<PackedGroup> groups;
   std::vector<PackedPlace> trees;
-  std::vector<int> tree;          ///< (n) index in `trees` of each joint
-  std::vector<int> slot;          ///< (n) of each joint
-  std::vector<int> joint;         ///< (slots) in each slot, -1 where there is none
-  int slots = 0;                  ///< a multiple of 8
-  long row_blocks = 0;            ///< of all rows
-  long lu_row_blocks = 0;         ///< of those of groups that lu solves; they come first
-  bool one_to_one = true;         ///< as in Tree
-  std::vector<PackedBall> balls;  ///< as in Tree
+  std::vector<int> tree;              ///< (n) index in `trees` of each joint
+  std::vector<int> slot;              ///< (n) of each joint
+  std::vector<int> joint;             ///< (slots) in each slot, -1 where there is none
+  int slots = 0;                      ///< a multiple of 8
+  long row_blocks = 0;                ///< of all rows
+  long lu_row_blocks = 0;             ///< of those of groups that lu solves; they come first
+  bool one_to_one = true;             ///< as in Tree
+  std::vector<PackedBall> balls;      ///< as in Tree
+  std::vector<int> slot_of_velocity;  ///< (n_v) of the joint that v moves one to one
   /// Where q has the displacement of a joint; not with mimic joints.
   struct Displacement {
     int slot, coordinate;
@@ -104,6 +105,9 @@ struct PackedTree {
   Blocks<2> kind;    ///< what a unit of displacement turns and slides: 1, 0 | 0, 1 | 1, pitch
   Blocks<10> body;   ///< mass, c_J, I_J: xx xy xz yy yz zz
   Blocks<1> weight;  ///< [kg] mass of the subtree
+  /// armature, stiffness, rest (mass_model.hpp), in the slots that `slot_of_velocity` names; empty
+  /// where no coordinate has any.
+  Blocks<3> own;
   Vec3 gravity = Vec3::Zero();
 };
 

@@ -26,6 +26,22 @@ struct Mimic {
   double offset = 0;
 };
 
+/// What of a joint acts in steps; the rest is kept as information.
+enum class JointEffects : unsigned {
+  none = 0,
+  limits = 1,    ///< a stop at each end of the range
+  damping = 2,   ///< with armature and spring
+  friction = 4,  ///< dry
+  motors = 8,    ///< actuators on it, and the effort they are limited to
+  all = 15,
+};
+constexpr JointEffects operator|(JointEffects a, JointEffects b) {
+  return static_cast<JointEffects>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(JointEffects set, JointEffects one) {
+  return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
+}
+
 struct JointSpec {
   std::string name;
   JointType type = JointType::revolute;
@@ -39,6 +55,21 @@ struct JointSpec {
   double velocity = std::numeric_limits<double>::infinity();
   double effort = std::numeric_limits<double>::infinity();
   double damping = 0, friction = 0;
+  double armature = 0;             ///< [kg m^2 | kg] of a motor's rotor, as the joint feels it
+  double stiffness = 0, rest = 0;  ///< of a spring; [N m/rad | N/m], [rad | m]
+  double limit_restitution = 0;    ///< at its stops
+  JointEffects effects = JointEffects::all;
+};
+
+/// A motor, a servo or any force that is affine in what it moves: force_model.hpp.
+struct ActuatorSpec {
+  std::string name;
+  std::vector<std::pair<std::string, double>> joints;  ///< of one coordinate each, with ratios
+  double gain = 1;
+  double bias = 0, bias_l = 0, bias_v = 0;
+  double effort = std::numeric_limits<double>::infinity();
+  double lower = -std::numeric_limits<double>::infinity();  ///< of the control
+  double upper = std::numeric_limits<double>::infinity();
 };
 
 struct ShapeSpec {
@@ -76,6 +107,7 @@ struct ModelDescription {
   TreeSolver solver = TreeSolver::automatic;
   std::vector<LinkSpec> links;  ///< the root first
   std::vector<JointSpec> joints;
+  std::vector<ActuatorSpec> actuators;
   std::vector<ShapeSpec> shapes;
   FilterSpec filter;
   MaterialSpec materials;

@@ -9,6 +9,7 @@
 
 #include "saltus/collision/pair_table.hpp"
 #include "saltus/error.hpp"
+#include "saltus/force/force_model.hpp"
 #include "saltus/lagrangian/partials.hpp"
 #include "saltus/model/materials.hpp"
 #include "saltus/model/state.hpp"
@@ -37,8 +38,8 @@ struct Link {
 /// What a coordinate is measured in: one of a quaternion's four numbers has no unit.
 enum class Unit { metre, radian, one };
 
-/// A number of q and what the file says of it. Limits, damping and friction are kept for the user;
-/// the stepper does not apply them.
+/// A number of q and what its joint is said to have. What of it acts is in ModelData::forces and
+/// among the pairs: JointEffects.
 struct Coordinate {
   std::string name;   ///< the joint's name; `<joint>_x` ... for joints of several
   std::string joint;  ///< name of the joint that it belongs to
@@ -66,6 +67,15 @@ struct TreeSolution {
   int depth;          ///< joints on the longest path from the root
 };
 
+/// A stop that a joint's limit is. It is a gap like that of two shapes: phi = side (q - bound).
+struct JointLimit {
+  std::string name;  ///< "elbow lower limit"
+  int joint;         ///< of the tree
+  int coordinate;    ///< in q
+  Stop stop;
+  double restitution = 0;
+};
+
 struct ModelDescription;
 
 struct ModelData {
@@ -73,6 +83,7 @@ struct ModelData {
   Tree tree;
   MassModel mass;
   PackedTree packed;  ///< tree and mass, for the kernels
+  ForceModel forces;
   std::vector<Link> links;
   std::vector<JointInfo> joints;
   std::vector<Coordinate> coordinates;      ///< (n_q)
@@ -80,10 +91,21 @@ struct ModelData {
                                             ///< the free joints' `_vx` `_vy` `_vz`
   std::vector<PlacedShape> shapes;
   PairTable pairs;
+  /// Numbered as pairs are, from `first_limit` on, which is pairs.size() as it was built.
+  std::vector<JointLimit> limits;
+  int first_limit = 0;
   MaterialTable materials;
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
   std::shared_ptr<const ModelDescription> description;  ///< what build() made it of
+
+  bool has_gaps() const { return !pairs.empty() || !limits.empty(); }
+  bool is_limit(int pair) const { return pair >= first_limit; }
+  const JointLimit& limit(int pair) const {
+    return limits[static_cast<std::size_t>(pair - first_limit)];
+  }
+  /// Restitution and friction of a pair, by its number.
+  ContactProperties contact_properties(int pair) const;
 };
 
 /// Gaps of all pairs at one configuration, dense, for people.
@@ -112,7 +134,8 @@ class SALTUS_EXPORT Model {
   /// The same from arrays (n_q), (n_v).
   State state(const VecRef& q, const VecRef& v, double t = 0) const;
 
-  /// All numbers 0, but quaternions, which are the identity.
+  /// All numbers 0, or where limits that act leave that out the nearest that they allow; but
+  /// quaternions, which are the identity.
   VecX neutral() const;
   /// q (+) dv: coordinates after motion at the constant velocities dv for 1 s. Of a ball dv are
   /// axis times angle, in its parent's axes.
@@ -141,8 +164,8 @@ class SALTUS_EXPORT Model {
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int velocity_index(const std::string& name) const;  ///< likewise, in v and p
   int link(const std::string& name) const;  ///< index, or ModelError with the names there are
-  Pair pair(int pair) const;                ///< what the pair of this number is of
-  std::string pair_name(int pair) const;    ///< "a ~ b", "a[part] ~ b"
+  Pair pair(int pair) const;                ///< what the pair or limit of this number is of
+  std::string pair_name(int pair) const;    ///< "a ~ b", "a[part] ~ b", "elbow lower limit"
   ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;

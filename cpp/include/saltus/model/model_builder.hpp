@@ -93,6 +93,32 @@ class SALTUS_EXPORT ModelBuilder {
   /// What happens between two materials, in any order; the last word holds.
   ModelBuilder& set_contact(const std::string& material_a, const std::string& material_b,
                             const ContactProperties& properties);
+
+  /// Forces; joints are of one coordinate where nothing else is said.
+  ///
+  /// A motor: the control is its torque, at most `effort`; the joint gets `gear` times it.
+  ModelBuilder& add_motor(const std::string& name, const std::string& joint, double gear = 1,
+                          double effort = no_bound);
+  /// kp (control - q) - kd v, of at most `effort`: the control is the position to reach.
+  ModelBuilder& add_position_servo(const std::string& name, const std::string& joint, double kp,
+                                   double kd = 0, double effort = no_bound);
+  /// kv (control - v), of at most `effort`: the control is the rate to reach.
+  ModelBuilder& add_velocity_servo(const std::string& name, const std::string& joint, double kv,
+                                   double effort = no_bound);
+  ModelBuilder& add_actuator(const ActuatorSpec& actuator);
+  ModelBuilder& set_armature(const std::string& joint, double armature);
+  /// Of all coordinates of a planar joint, of the ball of a floating or spherical one.
+  ModelBuilder& set_damping(const std::string& joint, double damping);
+  ModelBuilder& set_friction(const std::string& joint, double friction);
+  ModelBuilder& set_limit(const std::string& joint, double lower, double upper,
+                          double restitution = 0);
+  /// e at the stops that the joint has.
+  ModelBuilder& set_limit_restitution(const std::string& joint, double restitution);
+  ModelBuilder& add_joint_spring(const std::string& joint, double stiffness, double rest = 0);
+  /// What of these acts, of one joint or of all there are now.
+  ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
+  ModelBuilder& set_effects(JointEffects effects);
+
   ModelBuilder& add_warning(std::string text);
 
   void check() const;  ///< the checks of build() alone
@@ -102,6 +128,9 @@ class SALTUS_EXPORT ModelBuilder {
   const ModelDescription& description() const { return d_; }
 
  private:
+  static constexpr double no_bound = std::numeric_limits<double>::infinity();
+  JointSpec& joint(const std::string& name);
+
   ModelDescription d_;
 };
 

@@ -20,6 +20,9 @@ enum class OnFailure {
 struct BatchOptions {
   /// Of every run. `progress` is told the part of the whole batch, by the thread that called.
   SimulateOptions run = {};
+  /// (runs) What drives each run, in place of run.policy; empty: that drives all, from several
+  /// threads at once.
+  std::vector<Policy> policies = {};
   int threads = 0;  ///< 0: as many as the machine runs at once. Bits do not depend on it.
   OnFailure on_failure = OnFailure::go_on;
 };
@@ -44,11 +47,12 @@ struct RunOutcome {
 /// that a run did not reach are NaN. The first holds q and p also where a run never began.
 struct SALTUS_EXPORT BatchTrajectory {
   Model model;
-  StepOptions options;
-  VecX t;                           ///< (rows) [s] the same for all runs
-  MatX q, v, p;                     ///< (runs * rows, n_q), of v and p n_v
-  MatX kinetic, potential, shadow;  ///< (runs, rows) [J] as in Trajectory
-  std::vector<RunOutcome> outcome;  ///< (runs)
+  StepOptions options = {};
+  VecX t = {};                   ///< (rows) [s] the same for all runs
+  MatX q = {}, v = {}, p = {};   ///< (runs * rows, n_q), of v and p n_v
+  MatX control = {}, work = {};  ///< (runs * rows, n_u), (runs * rows, n_u + 3) likewise
+  MatX kinetic = {}, potential = {}, shadow = {};  ///< (runs, rows) [J] as in Trajectory
+  std::vector<RunOutcome> outcome = {};            ///< (runs)
 
   int runs() const { return static_cast<int>(outcome.size()); }
   /// Run i alone (a copy), in the same bits as simulate gives it.

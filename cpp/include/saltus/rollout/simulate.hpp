@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "saltus/rollout/control.hpp"
 #include "saltus/rollout/trajectory.hpp"
 #include "saltus/variational/stepper.hpp"
 
@@ -12,6 +13,8 @@ struct SimulateOptions {
   StepOptions step = {};         ///< of every step
   int record_every = 1;          ///< steps between recorded rows; the last is always one
   bool record_contacts = false;  ///< Trajectory::contacts, of all steps
+  Policy policy = {};            ///< none: controls are 0
+  int control_every = 1;         ///< steps between the times that it is asked
   /// Called about ten times a second of wall time with the part done in [0, 1]; false stops the
   /// run, which then holds what was done so far.
   std::function<bool(double)> progress = {};

@@ -21,25 +21,28 @@ struct RecordedContact {
 /// Rows are recorded states. `impacts[i].first` counts into `impulses` of the whole trajectory.
 struct SALTUS_EXPORT Trajectory {
   Model model;
-  StepOptions options;
-  VecX t;                       ///< (rows) [s]
-  MatX q, v, p;                 ///< (rows, n_q), of v and p n_v
-  VecX kinetic, potential;      ///< (rows) [J]
-  VecX shadow;                  ///< (rows) [J] H - h^2 kappa / 24, see saltus::energies
-  std::vector<Impact> impacts;  ///< in order of time
-  std::vector<ContactImpulse> impulses;
-  std::vector<Settling> settlings;        ///< in order of time
-  std::vector<Fallback> fallbacks;        ///< of steps that had to be made otherwise
-  std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
+  StepOptions options = {};
+  VecX t = {};                        ///< (rows) [s]
+  MatX q = {}, v = {}, p = {};        ///< (rows, n_q), of v and p n_v
+  VecX kinetic = {}, potential = {};  ///< (rows) [J]
+  VecX shadow = {};                   ///< (rows) [J] H - h^2 kappa / 24, see saltus::energies
+  MatX control = {};  ///< (rows, n_u) of the steps from this row on; the last: before it
+  MatX work = {};     ///< (rows, n_u + 3) [J] until then, as StepReport::work
+  std::vector<Impact> impacts = {};  ///< in order of time
+  std::vector<ContactImpulse> impulses = {};
+  std::vector<Settling> settlings = {};        ///< in order of time
+  std::vector<Fallback> fallbacks = {};        ///< of steps that had to be made otherwise
+  std::vector<std::string> certificates = {};  ///< (impacts) if StepOptions::certify
   /// All impulses, row by row: those of impacts, in order, then those that held pairs closed over
   /// the step. If SimulateOptions::record_contacts.
-  std::optional<std::vector<RecordedContact>> contacts;
+  std::optional<std::vector<RecordedContact>> contacts = {};
   long iterations = 0;    ///< Newton iterations in all
   double residual = 0;    ///< [largest momentum] the worst of any step
   bool complete = false;  ///< false: stopped on request, or failed, before `duration`
 
   VecX total() const { return kinetic + potential; }
-  /// Greatest |H(t) - H(0)| over the greatest kinetic energy of the run (0 if nothing moves).
+  /// Greatest |H(t) - H(0) - work| over the greatest kinetic energy of the run (0 if nothing
+  /// moves).
   double energy_error() const;
 };
 

@@ -22,6 +22,7 @@ struct JointMotion {
   Vec6 W = Vec6::Zero();  ///< V x S, of a ball with the third's V    written by set_velocity
   Mat3 R;                 ///< R_WJ                                   written by set_configuration
   Vec3 p;                 ///< [m] origin of J from O, world axes     written by set_configuration
+  double s = 0;           ///< [rad | m] displacement, 0 of a ball's  written by set_configuration
 };
 
 struct Kinematics {

@@ -56,6 +56,8 @@ struct UrdfOptions {
   /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
   /// Half-spaces stay watched; links that the robot has not are named in a warning.
   std::optional<std::string> srdf = {};
+  /// What of its joints acts; the rest is kept as information.
+  JointEffects effects = JointEffects::all;
   /// The default contact, in place of the file's own `<contact>` without materials.
   std::optional<ContactProperties> contact = {};
   /// Adds the half-space z <= 0, as ModelBuilder::add_floor does, unless the file has it.

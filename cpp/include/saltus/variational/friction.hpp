@@ -32,7 +32,11 @@ struct ContactBlocks {
   std::vector<double> friction;     ///< (m) mu >= 0
   std::vector<double> restitution;  ///< (m) e in [0, 1]
   std::vector<double> rest;         ///< (m) epsilon_u >= 0
+  /// (m) [N s] where it is above 0: no contact but a joint with dry friction, of one rate and an
+  /// impulse of at most this, either way. Empty: contacts alone.
+  std::vector<double> bound = {};
 
+  double bound_of(int i) const { return bound.empty() ? 0 : bound[static_cast<std::size_t>(i)]; }
   int size() const { return static_cast<int>(own.size()); }
 };
 

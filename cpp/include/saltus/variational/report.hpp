@@ -70,6 +70,9 @@ struct StepReport {
   /// Residual of Coulomb's law, as a fraction of the largest impulse or rate: the worst of the arcs
   /// and of the closing half kicks. Up to 1e-9 is rounding; more than 1e-6 is an error.
   double friction_residual = 0;
+  /// [J] done on the model in the step: by each actuator, by damping, by dry friction, and by the
+  /// forces of the input. H changes by their sum, but for O(h^2) of the midpoint rule.
+  VecX work;  ///< (n_u + 3)
   std::vector<Impact> impacts;
   std::vector<ContactImpulse> impulses;  ///< of impacts
   std::vector<Settling> settlings;

@@ -23,14 +23,14 @@ class SALTUS_EXPORT Stepper {
   Stepper& operator=(Stepper&&) noexcept;
 
   /// The state h later. `state` is not changed.
-  /// @throws ModelError on a state that does not fit the model, or with overlapping bodies (names
-  ///         pairs and depths); StepError if an arc does not converge or impacts do not end;
+  /// @throws ModelError on a state or input that does not fit the model, or with overlapping bodies
+  ///         (names pairs and depths); StepError if an arc does not converge or impacts do not end;
   ///         JammedError.
-  State advance(const State& state);
+  State advance(const State& state, const ForceInput& input = {});
 
   /// The same in place, without any allocation after the first step; on an exception `state` is
-  /// unchanged.
-  void step(State& state);
+  /// unchanged. `input` are controls and forces, held over the step.
+  void step(State& state, const ForceInput& input = {});
 
   /// Forgets all earlier steps: the next steps are bitwise those of a new Stepper.
   void forget();

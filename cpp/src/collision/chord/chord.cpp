@@ -154,6 +154,20 @@ ChordHit search(const Chord& chord, double floor) {
   return {Outcome::not_converged, s};
 }
 
+/// Of a stop, whose gap is linear on the chord.
+ChordHit search_stop(const Chord& chord, double floor) {
+  using Outcome = ChordHit::Outcome;
+  const Stop& stop = chord.pair.stop;
+  const int joint = chord.pair.on_a.joint;
+  const double start = chord.start(joint), rate = stop.side * chord.rate(joint);
+  const double g = stop.side * (start - stop.bound) - floor;
+  const double size = std::fmax(std::abs(start), std::abs(stop.bound));
+  if (!std::isfinite(g) || !std::isfinite(rate)) return {Outcome::not_converged, 0};
+  if (rate >= 0) return {g < -rounding * size ? Outcome::hit : Outcome::clear, g < 0 ? 0.0 : 1.0};
+  if (g + rate > 0) return {Outcome::clear, 1};
+  return {Outcome::hit, std::fmax(0, g / -rate)};
+}
+
 /// Of a crossing with a cylinder: most edges of a large body are far from it. Where a rim is
 /// crossed, one part is searched that is near the place.
 ChordHit search_at_cylinder(Chord chord, double floor) {
@@ -171,11 +185,13 @@ ChordHit search_at_cylinder(Chord chord, double floor) {
 }  // namespace
 
 double gap_change_bound(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq) {
+  if (pair.is_stop()) return std::abs(Chord{tree, pair, q, dq}.rate(pair.on_a.joint));
   return first_bounds({tree, pair, q, dq}).mu;
 }
 
 ChordHit first_hit_on_chord(const Tree& tree, const Pair& pair, const VecRef& q, const VecRef& dq,
                             double floor) {
+  if (pair.is_stop()) return search_stop({tree, pair, q, dq}, floor);
   const Chord chord{tree, pair, q, dq};
   floor = reachable(pair, floor);
   const bool at_cylinder = pair.kind == PairKind::crossing && has_rims(pair);

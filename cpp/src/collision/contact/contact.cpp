@@ -36,6 +36,18 @@ bool are_of_one_ball(const Tree& tree, int i, int l) {
          i - tree.joint[i].axis == l - tree.joint[l].axis;
 }
 
+/// Of a stop: points and normal are those of the joint's frame, for pictures.
+Gap stop_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
+  const int joint = pair.on_a.joint;
+  const Pose X_WJ = kin.X_WJ(tree, joint);
+  Gap g;
+  g.phi = pair.stop.side * (kin.joint[joint].s - pair.stop.bound);
+  g.n_W = pair.stop.side * X_WJ.R.col(2);
+  g.p_WA = g.p_WB = g.center_W = X_WJ.p;
+  g.d = g.phi;
+  return g;
+}
+
 /// The twist [w; u] of a against b about P for unit speed of one joint of the chain.
 Vec6 twist_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
   Vec6 t;
@@ -50,6 +62,7 @@ Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
 }
 
 Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair, const Vec3& motion_W) {
+  if (pair.is_stop()) return stop_gap(tree, kin, pair);
   const Placed &a = pair.on_a, &b = pair.on_b;
   const Vec3 origin = reference_point(tree, kin, std::max(a.joint, b.joint));
   const Pose X_WA = pose_from(tree, kin, a, origin), X_WB = pose_from(tree, kin, b, origin);
@@ -61,7 +74,7 @@ Gap pair_gap(const Tree& tree, const Kinematics& kin, const Pair& pair, const Ve
 }
 
 bool is_silent(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap) {
-  if (!may_be_silent(pair)) return false;
+  if (pair.is_stop() || !may_be_silent(pair)) return false;
   const Vec3 none = Vec3::Zero();  // the gap's points are from the world's origin
   return is_silent(pair, pose_from(tree, kin, pair.on_a, none),
                    pose_from(tree, kin, pair.on_b, none), gap);
@@ -84,6 +97,11 @@ void put_plane_on_b(const Tree& tree, const Kinematics& kin, const Vec3& p_W, co
 
 void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
                       Eigen::Ref<VecX> phi_q) {
+  if (pair.is_stop()) {
+    const Drive& drive = tree.drive[pair.on_a.joint];
+    phi_q[drive.velocity] += pair.stop.side * drive.multiplier;
+    return;
+  }
   for (const ChainJoint& k : pair.chain) {
     const Drive& drive = tree.drive[k.joint];
     phi_q[drive.velocity] +=
@@ -93,6 +111,7 @@ void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
 
 void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
                      Eigen::Ref<MatX> phi_qq) {
+  if (pair.is_stop()) return;  // phi is linear
   const Mat6 C = curvature(gap);
   for (std::size_t l = 0; l < pair.chain.size(); ++l) {
     const Drive& drive_l = tree.drive[pair.chain[l].joint];

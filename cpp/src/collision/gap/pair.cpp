@@ -1,5 +1,8 @@
 #include "saltus/collision/pair.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace saltus {
 
 std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a) {
@@ -15,6 +18,17 @@ std::vector<ChainJoint> chain_between(const Tree& tree, int joint_b, int joint_a
   }
   chain.insert(chain.end(), branch_a.rbegin(), branch_a.rend());
   return chain;
+}
+
+Pair make_stop(const Tree& tree, int joint, const Stop& stop) {
+  Pair pair;
+  pair.stop = stop;
+  pair.kind = Whole{};
+  pair.on_a.joint = joint;
+  pair.on_b.joint = tree.parent[joint];
+  pair.chain = {{joint, +1}};
+  pair.touch = relative_touch * std::max(1.0, std::abs(stop.bound));
+  return pair;
 }
 
 }  // namespace saltus

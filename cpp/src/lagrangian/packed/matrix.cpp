@@ -1,6 +1,7 @@
 #include "lagrangian/packed/matrix.hpp"
 
 #include "lagrangian/packed/ball.hpp"
+#include "lagrangian/packed/own_terms.hpp"
 
 namespace saltus {
 namespace packed {
@@ -84,7 +85,10 @@ void prepare_sweep(const PackedTree& t, PackedMatrix& J) {
 /// C^T J C from the rows of J.
 void set_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
   J.dense.setZero();
-  for (const PackedGroup& g : t.groups) packed::multiply_lu(g, J);
+  for (const PackedGroup& g : t.groups) {
+    packed::multiply_lu(g, J);
+    packed::add_to_diagonal(g, J);
+  }
   for_each_pair(t, [&](int j, int i, long entry) {
     const Drive &dj = tree.drive[j], &di = tree.drive[i];
     const double scale = di.multiplier * dj.multiplier;
@@ -111,6 +115,7 @@ PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& packed)
   u_w.resize(n);
   inverse.resize(n);
   x.resize(n);
+  added.reserve(n);
   const std::size_t rows =
       static_cast<std::size_t>(packed.one_to_one ? packed.lu_row_blocks : packed.row_blocks);
   lower.resize(rows);
@@ -135,12 +140,19 @@ bool factorize(const Tree& tree, const PackedTree& t, const Packed& w, double ta
     packed::set_generators(t, w, tau, J);
     packed::set_ball_generators(t, w, tau, J);
   }
-  if (!t.one_to_one) return factorize_dense(tree, t, J);
+  packed::set_own_pivots(t, w, tau, J);
+  J.is_coupled = false;
+  if (!t.one_to_one) {
+    return factorize_dense(tree, t, J) && packed::factorize_coupled(tree, t, w, tau, J);
+  }
   for (const PackedGroup& g : t.groups) {
-    if (!g.sweep) packed::multiply_lu(g, J);
+    if (!g.sweep) {
+      packed::multiply_lu(g, J);
+      packed::add_to_diagonal(g, J);
+    }
     if (!(g.sweep ? packed::factorize_sweep(g, J) : packed::eliminate_lu(g, J))) return false;
   }
-  return true;
+  return packed::factorize_coupled(tree, t, w, tau, J);
 }
 
 namespace {
@@ -166,13 +178,14 @@ void solve_scaled(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& 
   if (!t.one_to_one) {
     J.solution = J.lu.solve(x);
     x = J.solution;
-    return;
+    return packed::solve_coupled(J, x);
   }
   for (int i = 0; i < tree.joints(); ++i) *at(J.x, t.slot[i]) = x[i];
   for (const PackedGroup& g : t.groups) {
     g.sweep ? packed::solve_sweep(g, J) : packed::solve_lu(g, J);
   }
   for (int i = 0; i < tree.joints(); ++i) x[i] = *at(J.x, t.slot[i]);
+  packed::solve_coupled(J, x);
 }
 
 void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {

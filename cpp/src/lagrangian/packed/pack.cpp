@@ -142,6 +142,25 @@ void set_constants(const Tree& tree, const MassModel& mass, int i, PackedTree& t
   *at(t.weight, slot) = body.mass;
 }
 
+/// What coordinates have of their own.
+void set_own(const Tree& tree, const MassModel& mass, PackedTree& t) {
+  t.slot_of_velocity.assign(static_cast<std::size_t>(tree.n_v), -1);
+  for (int i = 0; i < tree.joints(); ++i) {
+    const Drive& drive = tree.drive[i];
+    if (drive.multiplier == 1 && drive.offset == 0 && t.slot_of_velocity[drive.velocity] < 0) {
+      t.slot_of_velocity[drive.velocity] = t.slot[i];
+    }
+  }
+  const VecX* const parts[] = {&mass.armature, &mass.stiffness, &mass.rest};
+  for (int part = 0; part < 3; ++part) {
+    if (parts[part]->size() == 0 || parts[part]->isZero(0)) continue;
+    if (t.own.empty()) t.own.resize(static_cast<std::size_t>(t.slots / lanes));
+    for (int c = 0; c < tree.n_v; ++c) {
+      at(t.own, t.slot_of_velocity[c])[part * lanes] = (*parts[part])[c];
+    }
+  }
+}
+
 /// R of the placements in the world's axes, where nothing turns above.
 void place_in_world(const PackedGroup& g, PackedTree& t) {
   for (int k = 1; k < g.positions; ++k) {
@@ -196,6 +215,7 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
     for (const int c : {0, 4, 8}) std::fill_n(block.x[c], lanes, 1.0);
   }
   for (int i = 0; i < tree.joints(); ++i) set_constants(tree, mass, i, t);
+  set_own(tree, mass, t);
   for (const PackedGroup& g : t.groups) {
     packed::add_up<1>(g, t.weight, 0);
     place_in_world(g, t);

@@ -2,6 +2,7 @@
 #include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
+#include "lagrangian/packed/own_terms.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
 namespace saltus {
@@ -137,6 +138,7 @@ void first_pass(const PackedTree& t, Packed& w) {
   packed::set_inertias(t, w);
   packed::sum_momenta(t, w);
   packed::set_first(t, w);
+  packed::add_own_partials(t, w);
 }
 
 void arc_pass(const PackedTree& t, double tau, Packed& w) {
@@ -147,6 +149,7 @@ void arc_pass(const PackedTree& t, double tau, Packed& w) {
 void scale_pass(const PackedTree& t, double tau, Packed& w) {
   packed::set_terms(t, w);
   packed::set_scale(t, tau, w);
+  packed::add_own_scale(t, tau, w);
 }
 
 void second_pass(const PackedTree& t, Packed& w) { packed::set_generators(t, w); }
@@ -157,7 +160,7 @@ void mass_pass(const PackedTree& t, Packed& w) {
 }
 
 double potential_energy(const PackedTree& t, const Packed& w) {
-  double V = 0;
+  double V = packed::own_energy(t, w);
   for (const PackedGroup& g : t.groups) {
     for (int lane = 0; lane < g.trees; ++lane) {
       const double *I_h = at(w.I_h, g.first + lane), *p = at(w.p, g.first + lane);

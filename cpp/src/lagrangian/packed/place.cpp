@@ -221,6 +221,7 @@ void copy_pose(const Tree& tree, const PackedTree& t, const Packed& w, int joint
   for (int c = 0; c < 9; ++c) m.R.data()[c] = R[c * lanes];  // both by columns
   for (int c = 0; c < 3; ++c) m.p[c] = p[c * lanes];
   for (int c = 0; c < 6; ++c) m.S[c] = S[c * lanes];
+  m.s = *at(w.s, slot);
   const double* p_root = at(w.p, t.slot[root]);
   for (int c = 0; c < 3; ++c) kin.origin[root][c] = p_root[(3 + c) * lanes] - p_root[c * lanes];
 }

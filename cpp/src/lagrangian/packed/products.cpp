@@ -8,6 +8,7 @@
 // Sums are over the joint and what is below, `up` over what is above. A joint of a ball takes the
 // other two as below, but for (L_qv v)_i, where it takes them and itself as above.
 #include "lagrangian/packed/ball.hpp"
+#include "lagrangian/packed/own_terms.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
 namespace saltus {
@@ -92,6 +93,7 @@ void multiply_by_rates(const PackedTree& t, const Packed& w, PackedProducts& out
   packed::set_sums(t, w, out);
   packed::set_products(t, w, out);
   packed::set_ball_products(t, w, out);
+  packed::add_own_products(t, w, out);
 }
 
 }  // namespace saltus

@@ -120,6 +120,7 @@ template <int N>
 SALTUS_INLINE bool factorize(const PackedGroup& g, PackedMatrix& J) {
   Carried carried;
   bool loaded = false;  // `carried` holds what joint k + 1 left for joint k
+  const bool has_added = !J.added.empty();
   auto ball = g.balls.rbegin();
   for (Carried& each : J.branch) each = Carried{};
   for (int k = g.positions - 1; k >= 0; --k) {
@@ -136,7 +137,8 @@ SALTUS_INLINE bool factorize(const PackedGroup& g, PackedMatrix& J) {
       if (!loaded) add_branch<N>(carried, true, J.branch[J.branch_of[g.slot(g.parent[k])]]);
       continue;
     }
-    const double D = set_row<N>(slot, loaded, carried, J);
+    double D = set_row<N>(slot, loaded, carried, J);
+    if (has_added) D += *at(J.added, slot);
     const double inverse = *at(J.inverse, slot) = 1 / D;  // tells which pivot failed
     if (!is_pivot(D)) return false;
     if (g.parent[k] < 0) break;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "variational/arc/arc_forces.hpp"
+
 namespace saltus {
 namespace {
 
@@ -30,13 +32,14 @@ void set_scale(const ModelData& model, double tau, ArcScratch& s) {
   scale_pass(packed, tau, s.w);
   if (packed.one_to_one) {
     gather(tree, packed, s.w.scale, 0, s.scale);
-    return;
+  } else {
+    s.scale.setZero();
+    for (int i = 0; i < tree.joints(); ++i) {
+      const Drive& drive = tree.drive[i];
+      s.scale[drive.velocity] += std::abs(drive.multiplier) * *at(s.w.scale, packed.slot[i]);
+    }
   }
-  s.scale.setZero();
-  for (int i = 0; i < tree.joints(); ++i) {
-    const Drive& drive = tree.drive[i];
-    s.scale[drive.velocity] += std::abs(drive.multiplier) * *at(s.w.scale, packed.slot[i]);
-  }
+  if (s.has_forces) s.scale += tau / 2 * s.forces.size;
 }
 
 /// Writes w, L_v and L_q at v: all that the residual is made of.
@@ -49,8 +52,10 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   place(packed, s.w);
   move(packed, s.w);
   first_pass(packed, s.w);
+  if (s.has_forces) add_forces(model, v, s);
   s.has_second = false;
   arc_pass(packed, a.tau, s.w);
+  if (s.has_forces) add_ball_forces(model, a.tau, v, s);
   gather(tree, packed, s.w.arc, 0, s.L_v);
   gather(tree, packed, s.w.arc, 1, s.L_q);
 }
@@ -141,6 +146,14 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
   if (law == ImpactLaw::compensated) compensation.emplace(model);
   q.setZero(model.tree.n_q);
   for (VecX* each : {&L_v, &L_q, &r, &scale, &dv, &x}) each->setZero(model.tree.n_v);
+  prepare_forces(model, *this);
+}
+
+void set_second_partials(const ModelData& model, ArcScratch& s) {
+  if (s.has_second) return;
+  second_pass(model.packed, s.w);
+  if (s.has_forces) add_wrench_partials(model, s);
+  s.has_second = true;
 }
 
 void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s) {

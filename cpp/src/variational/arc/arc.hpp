@@ -8,6 +8,8 @@
 //   p_end   = L_v + tau/2 L_q     = p_start + tau L_q
 //   E_d     = v.L_v - L           = T + V
 //
+// A force Q(q_mid, v, u) acts as L_q does, on both halves of the arc (F1): L_q below is L_q + Q.
+//
 // For balls L_v and L_q are the L_v' and L_q' of packed.hpp. A ball may turn by less than 2 pi in
 // an arc: the equation has a pole there, and farther than that its residual counts as infinite.
 //
@@ -29,6 +31,7 @@
 #include <optional>
 
 #include "saltus/collision/contact.hpp"
+#include "saltus/force/force_model.hpp"
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
@@ -71,6 +74,10 @@ struct Compensation {
 struct ArcScratch {
   ArcScratch(const ModelData& model, ImpactLaw law);
   std::optional<Compensation> compensation;
+  ForceValues forces;                 ///< of the last evaluation; written where has_forces
+  VecX wrench_force;                  ///< (n_v) the part of them that wrenches on bodies make
+  const ForceInput* input = nullptr;  ///< what drives the step; written by the stepper
+  bool has_forces = false;            ///< likewise: the model or the input has some
   Packed w;
   bool has_second = false;  ///< second_pass sums in place: once an evaluation
   PackedMatrix J;
@@ -98,10 +105,7 @@ Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
 Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s);
 
 /// Second partials at the last evaluation, into s.w.
-inline void set_second_partials(const ModelData& model, ArcScratch& s) {
-  if (!s.has_second) second_pass(model.packed, s.w);
-  s.has_second = true;
-}
+void set_second_partials(const ModelData& model, ArcScratch& s);
 
 /// What solve_arc is made of, for closing_arc.cpp and row_blocks.cpp.
 ///

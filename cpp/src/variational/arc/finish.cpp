@@ -29,7 +29,11 @@ void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& k
   for (int i = 0; i < rows.count; ++i) {
     const Row& row = rows.row[i];
     Contact* c = nullptr;
-    if (row.is_pressed()) {
+    if (row.is_joint()) {
+      c = &node.dry[-1 - row.contact];
+      c->bound = rows.tau / 2 * node.dry_force[-1 - row.contact];
+      c->slot = row.slot;
+    } else if (row.is_pressed()) {
       c = held_contact(scene, row, static_cast<std::size_t>(i), node, kick);
     } else if (const int contact = node.contact_at(row.slot); contact >= 0) {
       c = &node.contacts[contact];
@@ -49,10 +53,20 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
   kick.residual = settle_for_sure(kick.W, kick.pile, kick.u, kick.p).excess;
   kick.unlawful =
       kick.contacts[static_cast<std::size_t>(most_lawless(kick.W, kick.u, kick.p))]->slot;
+  kick.dry_rate.clear();
+  for (const Contact* c : kick.contacts) {
+    kick.dry_rate.push_back(c->bound > 0 ? dot(scene.trees, c->n, node.v) : 0);
+  }
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
     const Contact& c = *kick.contacts[i];
     apply(scene, c, kick.p[i], node);
+    if (c.bound > 0) continue;
     kick.impulses.push_back(acted(node, c, kick.p[i][0], across(c, kick.p[i])));
+  }
+  for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
+    const Contact& c = *kick.contacts[i];
+    if (!(c.bound > 0)) continue;
+    kick.dry_work += kick.p[i][0] * (kick.dry_rate[i] + dot(scene.trees, c.n, node.v)) / 2;
   }
   refresh_motions(scene, node);
 }
@@ -60,7 +74,7 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
 }  // namespace
 
 HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
-  const auto pairs = static_cast<std::size_t>(scene.model.pairs.size());
+  const auto pairs = static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
   const std::size_t reserved = std::min<std::size_t>(pairs, 64);
   const std::size_t boxes = std::min<std::size_t>(pairs, 16);
   for (std::size_t i = 0; i < reserved; ++i) own.push_back(fresh_contact(scene));
@@ -73,12 +87,13 @@ HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
 
 bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfKick& kick) {
   kick.impulses.clear();
-  kick.residual = 0;
+  kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
   place_node(scene, t, work.arc.q_end, work.arc.p_end, node);
   if (!find_contacts(scene, node)) return false;
   if (work.rows.count == 0) return true;
-  const bool is_held = count_pressed(work.rows) > 0;  // then all that it held may have parted
+  // where something was held, all of it may have parted
+  const bool is_held = count_pressed(work.rows) > 0 || !node.dry.empty();
   if (is_held && !node.has_factors && !set_velocity_at_node(scene, node)) return false;
   list_contacts(scene, work.rows, node, kick);
   if (!kick.contacts.empty()) share(scene, node, kick);

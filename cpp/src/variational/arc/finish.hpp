@@ -21,6 +21,7 @@ struct HalfKick {
   std::vector<ContactImpulse> impulses;
   double residual = 0;  ///< of the law
   int unlawful = -1;    ///< slot of the pair that it was least met by
+  double dry_work = 0;  ///< [J] of joints with dry friction
 
   // scratch
   std::vector<Contact> own;        ///< a pool: what the arc held and is no contact of the node
@@ -28,6 +29,7 @@ struct HalfKick {
   Neighbours neighbours;
   ContactBlocks W;
   std::vector<Vec3> u, p;
+  std::vector<double> dry_rate;  ///< (contacts) of joints, before
   PileScratch pile;
 };
 

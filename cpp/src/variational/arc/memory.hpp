@@ -69,6 +69,7 @@ struct Memory {
   bool has_rate = false;                ///< the arc ended where a gap closed:
   VecX rate;                            ///< (n_v) its dv/dtau, the acceleration there
   std::vector<ImpulseMemory> impulses;  ///< (pool) of rows
+  std::vector<ImpulseMemory> dry;       ///< of joints with dry friction
   int arcs = 0;                         ///< numbers them
 };
 

@@ -34,11 +34,19 @@ void set_chord(const ModelData& model, const Gap& g, double tau, Row& row, Vec3&
   }
 }
 
+/// The rate of a joint: its velocity.
+void set_joint_rate(const Scene& scene, const Contact& c, const Arc& arc, Row& row, Vec3& u) {
+  row.rate[0].setZero();
+  add(scene.trees, 1, c.n, row.rate[0]);
+  u = Vec3(dot(scene.trees, c.n, arc.v), 0, 0);
+}
+
 bool is_corner(const Row& row) { return row.is_frozen && !row.pair->inward.empty(); }
 
 /// Rates of the active rows at arc.v, and their gradients by the configuration they are of. Needs
 /// the poses in the arc's middle.
-void set_rates(const ModelData& model, const Node& node, ArcWork& work) {
+void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
   Rows& rows = work.rows;
   ArcScratch& s = work.scratch;
   const double tau = work.arc.tau;
@@ -47,7 +55,11 @@ void set_rates(const ModelData& model, const Node& node, ArcWork& work) {
   rows.u.resize(rows.active.size());
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     Row& row = active_row(rows, i);
-    const Contact& c = node.contacts[row.contact];
+    const Contact& c = contact_of(node, row);
+    if (row.is_joint()) {
+      set_joint_rate(scene, c, work.arc, row, rows.u[i]);
+      continue;
+    }
     const bool slides = c.friction > 0;
     Vec3& u = rows.u[i];
     u.setZero();
@@ -66,7 +78,8 @@ void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
   ArcScratch& s = work.scratch;
   const bool is_chord = is_corner(row);
   for (int k = 0; k < c.rates(); ++k) {
-    if (k == 0 || is_chord) pull_back_end(model.packed, s.J, row.rate[k]);
+    const bool is_of_end = (k == 0 && !row.is_joint()) || is_chord;
+    if (is_of_end) pull_back_end(model.packed, s.J, row.rate[k]);
     VecX& column = row.column[k];
     column.setZero();
     add(scene.trees, 1, c.row(k), column);
@@ -89,11 +102,11 @@ void set_blocks(const Node& node, bool is_launched, Rows& rows) {
   const int m = static_cast<int>(rows.active.size());
   for (int j = 0; j < m; ++j) {
     const Row& by = active_row(rows, j);
-    const Contact& c = node.contacts[by.contact];
+    const Contact& c = contact_of(node, by);
     W.start.push_back(static_cast<int>(W.contact.size()));
     for (int i = 0; i < m; ++i) {
       const Row& at = active_row(rows, i);
-      const Contact& other = node.contacts[at.contact];
+      const Contact& other = contact_of(node, at);
       if (!is_launched && !share_a_tree(other.n, c.n)) continue;
       W.contact.push_back(i);
       W.block.push_back(block_of(at, other.rates(), by, c.rates()));
@@ -108,7 +121,7 @@ void add_impulses(const Scene& scene, const Node& node, Rows& rows) {
   rows.momentum = node.p;
   rows.size = node.p.cwiseAbs();
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
-    const Contact& c = node.contacts[active_row(rows, i).contact];
+    const Contact& c = contact_of(node, active_row(rows, i));
     for (int k = 0; k < c.rates(); ++k) {
       add(scene.trees, rows.p[i][k], c.row(k), rows.momentum);
       add_sizes(scene.trees, rows.p[i][k], c.row(k), rows.size);
@@ -130,7 +143,7 @@ Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
     arc.residual = std::max((work.scratch.r.array().abs() / size).maxCoeff(),
                             line_residual(scene.model, problem, arc.v, work.scratch));
   }
-  set_rates(scene.model, node, work);
+  set_rates(scene, node, work);
   const Lawlessness out{arc.residual, arc.residual};
   if (rows.W.size() != static_cast<int>(rows.active.size())) return out;
   const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
@@ -150,15 +163,17 @@ bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
   if (is_launched) take_out_line(model, arc_problem(scene, arc.tau, node, work), arc.v, s);
   arc.v += s.dv;
   if (!arc.v.allFinite()) return false;
-  set_rates(model, node, work);
+  set_rates(scene, node, work);
   clear(rows.W);
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     Row& row = active_row(rows, i);
-    const Contact& c = node.contacts[row.contact];
+    const Contact& c = contact_of(node, row);
     linearize(scene, c, work, row);
     rows.W.friction.push_back(c.friction);
     // a hundredth of what touches is closed, over the arc
-    rows.W.rest.push_back(std::max(c.epsilon_u, 1e-2 * row.pair->touch / arc.tau));
+    const double closed = row.is_joint() ? 0 : 1e-2 * row.pair->touch / arc.tau;
+    rows.W.rest.push_back(std::max(c.epsilon_u, closed));
+    rows.W.bound.push_back(row.is_joint() ? arc.tau / 2 * node.dry_force[-1 - row.contact] : 0);
   }
   set_blocks(node, is_launched, rows);
   return true;

@@ -58,7 +58,7 @@ void fit(int n_v, bool with_friction, Row& row) {
 
 void activate(const Scene& scene, int i, const Node& node, Rows& rows) {
   Row& row = rows.row[i];
-  const int rates = node.contacts[row.contact].rates();
+  const int rates = contact_of(node, row).rates();
   if (row.rate[rates - 1].size() == 0) fit(scene.model.tree.n_v, rates == 3, row);
   row.is_active = true;
   rows.active.push_back(i);
@@ -86,6 +86,19 @@ void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
   }
 }
 
+void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {
+  Row& row = next_row(rows);
+  row.contact = -1 - dry;
+  row.slot = -2 - dry;
+  row.pair = nullptr;
+  row.is_active = row.is_frozen = false;
+  row.target = 0;
+  row.p.setZero();
+  const auto k = static_cast<std::size_t>(dry);
+  const bool is_known = k < memory.dry.size() && memory.dry[k].arc == memory.arcs;
+  if (is_known) row.p = tau / memory.dry[k].tau * memory.dry[k].p;
+}
+
 /// Joints between two bodies, at most.
 int deepest_chain(const Tree& tree) {
   std::vector<int> depth(static_cast<std::size_t>(tree.joints()), 1);
@@ -106,7 +119,7 @@ bool level_rods(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
   bool changed = false;
   for (int i = 0; i < rows.count; ++i) {
     Row& row = rows.row[i];
-    if (row.is_frozen || !is_rod_end(scene.model, *row.pair)) continue;
+    if (row.is_joint() || row.is_frozen || !is_rod_end(scene.model, *row.pair)) continue;
     place_end(scene.model, q_end, s);
     const Gap whole = pair_gap_at_end(scene.model, *node.pool.solid(row.slot), s);
     if (whole.phi >= floor_of(node, row.slot)) continue;
@@ -120,7 +133,7 @@ bool level_rods(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
 
 Rows::Rows(const Scene& scene) {
   constexpr std::size_t few = 64;  // what is more grows once
-  const auto pairs = static_cast<std::size_t>(scene.model.pairs.size());
+  const auto pairs = static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
   const std::size_t reserved = std::min(pairs, few), boxes = std::min<std::size_t>(pairs, 16);
   const auto chain = static_cast<std::size_t>(deepest_chain(scene.model.tree));
   row.resize(reserved);
@@ -157,6 +170,10 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
     if (is_known) row.p = tau / memory.impulses[c.slot].tau * memory.impulses[c.slot].p;
     if (is_known || c.friction > 0) activate(scene, rows.count - 1, node, rows);
   }
+  for (std::size_t k = 0; k < node.dry.size(); ++k) {
+    add_joint_row(static_cast<int>(k), tau, memory, rows);
+    activate(scene, rows.count - 1, node, rows);
+  }
 }
 
 void rest_from_now(const Scene& scene, int contact, const Node& node, Rows& rows) {
@@ -183,7 +200,8 @@ bool level_held_ends(const Scene& scene, const Node& node, Rows& rows) {
   bool changed = false;
   for (int i = 0; i < rows.count; ++i) {
     Row& row = rows.row[i];
-    if (!row.is_active || row.is_frozen || !is_rod_end(scene.model, *row.pair)) continue;
+    if (row.is_joint() || !row.is_active || row.is_frozen) continue;
+    if (!is_rod_end(scene.model, *row.pair)) continue;
     freeze(scene.model, node, row);
     changed = true;
   }

@@ -5,6 +5,9 @@
 //
 //   u_n = (phi(q (+) tau v) - target) / tau,  u_t,   and p = (lambda, beta)
 //
+// A joint with dry friction is a row of one rate v_c, always solved for, |p| <= tau f / 2: half of
+// what it may push in the arc; the other half is in the closing half kick (theory, F4).
+//
 // Not all rows are solved for: a contact without friction that was not pressed in the arc before
 // joins where the arc would press it. Then the law says who is pressed, sticks and slides.
 //
@@ -24,9 +27,9 @@
 namespace saltus {
 
 struct Row {
-  int contact = -1;            ///< its index in node.contacts, at the arc's start
-  int slot = -1;               ///< of its pair in the pool
-  const Pair* pair = nullptr;  ///< likewise
+  int contact = -1;  ///< its index in node.contacts, at the arc's start; -1 - k: node.dry[k]
+  int slot = -1;     ///< of its pair in the pool; -2 - k of dry[k]
+  const Pair* pair = nullptr;  ///< likewise; none of a joint
   bool is_frozen = false;      ///< held in a plane of b: `frozen` is the pair
   Pair frozen;
   Vec3 point_B;                   ///< where a frozen row starts, in the frame of b's joint
@@ -38,8 +41,9 @@ struct Row {
   std::array<VecX, 3> column;     ///< (n_v) J^-1 of the forces, which act at the arc's start
   Vec3 by_launch = Vec3::Zero();  ///< what each changes of the launch's impulse
 
+  bool is_joint() const { return contact < 0; }
   const Pair& watched() const { return is_frozen ? frozen : *pair; }
-  bool is_pressed() const { return is_active && p[0] > 0; }
+  bool is_pressed() const { return is_active && !is_joint() && p[0] > 0; }
 };
 
 /// What an impulse was in an arc, for a guess.
@@ -71,7 +75,12 @@ struct Rows {
 /// Number k of the rows that an arc is solved with.
 inline Row& active_row(Rows& rows, std::size_t k) { return rows.row[rows.active[k]]; }
 
-/// How many of them push.
+/// What a row is at the node.
+inline const Contact& contact_of(const Node& node, const Row& row) {
+  return row.is_joint() ? node.dry[-1 - row.contact] : node.contacts[row.contact];
+}
+
+/// How many contacts push.
 int count_pressed(const Rows& rows);
 
 struct Memory;

@@ -33,7 +33,7 @@ void give_impulses(Rows& rows) {
   for (const Vec3& p : rows.p) size = std::max(size, p[0]);
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
     Row& row = active_row(rows, k);
-    row.p = rows.p[k][0] > 1e-13 * size ? rows.p[k] : Vec3::Zero();
+    row.p = row.is_joint() || rows.p[k][0] > 1e-13 * size ? rows.p[k] : Vec3::Zero();
   }
 }
 

@@ -21,13 +21,27 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
          f.work.rows.of_contact[contact] < 0;
 }
 
+/// The pair at `slot` becomes the first where it closes before.
+void take_if_first(const Scene& scene, int slot, const Node& node, const Flight& f,
+                   FirstHit& first) {
+  if (!is_watched(node, f, slot)) return;
+  const ChordHit hit =
+      first_hit_on_chord(scene.model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
+  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < first.s)) return;
+  const int contact = node.contact_at(slot);
+  const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
+  first = {slot, hit.s, hops};
+}
+
 }  // namespace
 
 FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
   const ModelData& model = scene.model;
   FirstHit first;
-  if (model.pairs.empty()) return first;
+  if (!model.has_gaps()) return first;
   f.dq = f.work.arc.tau * f.work.arc.v;
+  for (int slot = 0; slot < node.pool.limits(); ++slot) take_if_first(scene, slot, node, f, first);
+  if (model.pairs.empty()) return first;
   double margin = 0;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
   const Pair* solid = nullptr;
@@ -39,13 +53,7 @@ FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
       solid = node.pool.solid(slot);
       is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, node, f.dq);
     }
-    if (is_clear || !is_watched(node, f, slot)) continue;
-    const ChordHit hit =
-        first_hit_on_chord(model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
-    if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < first.s)) continue;
-    const int contact = node.contact_at(slot);
-    const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
-    first = {slot, hit.s, hops};
+    if (!is_clear) take_if_first(scene, slot, node, f, first);
   }
   return first;
 }
@@ -60,6 +68,7 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
   constexpr double same_point = 1e-3;  // of the radius
   for (const int i : work.rows.active) {
     const Row& row = work.rows.row[i];
+    if (row.is_joint()) continue;
     const bool is_axis =
         node.pool.solid(row.slot) == node.pool.solid(end) && row.pair->kind == PairKind::crossing;
     if (!is_axis) continue;

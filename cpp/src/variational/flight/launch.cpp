@@ -11,8 +11,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Something rests with friction.
 bool has_friction_rows(const Node& node, const Rows& rows) {
-  return std::any_of(rows.active.begin(), rows.active.end(),
-                     [&](int i) { return node.contacts[rows.row[i].contact].friction > 0; });
+  return std::any_of(rows.active.begin(), rows.active.end(), [&](int i) {
+    const Row& row = rows.row[i];
+    return row.is_joint() || node.contacts[row.contact].friction > 0;
+  });
 }
 
 bool match_arc(const Scene& scene, double left, const Launch& launch, const Node& node, Flight& f) {
@@ -81,7 +83,8 @@ bool match_shadow(const Scene& scene, double left, const Launch& launch, const N
 }  // namespace
 
 bool meet(const Scene& scene, double left, const Launch& launch, const Node& node, Flight& f) {
-  if (has_friction_rows(node, f.work.rows)) return false;  // their impulses are all that is sought
+  // with friction its impulses are all that is sought, and forces do work on both sides
+  if (has_friction_rows(node, f.work.rows) || f.work.scratch.has_forces) return false;
   if (scene.options.law == ImpactLaw::shadow_energy) {
     return match_shadow(scene, left, launch, node, f);
   }

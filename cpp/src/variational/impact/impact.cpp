@@ -126,7 +126,9 @@ void set_contact_space(const Scene& scene, Node& node, ImpactScratch& s) {
 
 ImpactScratch::ImpactScratch(const Scene& scene) : neighbours(scene), friction(scene.has_friction) {
   constexpr std::size_t few = 64;  // contacts; what is more grows once
-  const std::size_t reserved = std::min(static_cast<std::size_t>(scene.model.pairs.size()), few);
+  const std::size_t gaps =
+      static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
+  const std::size_t reserved = std::min(gaps, few);
   for (VecX* each : {&launch.n, &launch.response}) each->setZero(scene.model.tree.n_v);
   impulses.reserve(1024);
   G.start.reserve(reserved + 1);

@@ -28,6 +28,11 @@ int next_contact(const ContactBlocks& W, ImpactOrder order, const std::vector<Ve
   return next;
 }
 
+/// Dry friction of a joint: as much as stops it, and `bound` at most.
+Vec3 stop_joint(double W, double u, double bound) {
+  return {std::clamp(-u / W, -bound, bound), 0, 0};
+}
+
 /// Rates of all by an impulse at one.
 void feel(const ContactBlocks& W, int contact, const Vec3& p, std::vector<Vec3>& u) {
   for (int k = W.start[contact]; k < W.start[contact + 1]; ++k) u[W.contact[k]] += W.block[k] * p;
@@ -105,11 +110,14 @@ int settle(const ContactBlocks& W, int most_sweeps, std::vector<Vec3>& u, std::v
     double change = 0, size = 0;
     for (int i = 0; i < W.size(); ++i) {
       const Vec3 free = u[i] - W.own[i] * p[i];
-      const Vec3 dp = stop_contact(W.own[i], free, W.friction[i]) - p[i];
+      const double bound = W.bound_of(i);
+      const Vec3 stopped = bound > 0 ? stop_joint(W.own[i](0, 0), free[0], bound)
+                                     : stop_contact(W.own[i], free, W.friction[i]);
+      const Vec3 dp = stopped - p[i];
       feel(W, i, dp, u);
       p[i] += dp;
       change = std::max(change, dp.cwiseAbs().maxCoeff());
-      size = std::max(size, p[i][0]);
+      size = std::max(size, std::abs(p[i][0]));
     }
     if (change <= 1e-14 * size) return sweep;
   }

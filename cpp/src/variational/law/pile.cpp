@@ -45,7 +45,7 @@ void PileIsland::set_slope(double rho) {
   for (int c = 0; c < r_; ++c) s_.H[static_cast<std::size_t>(c) * r_ + c] = 1;
   for (int i = 0; i < k_; ++i) {
     Mat3 D;
-    to_cone(s_.trial[i], s_.friction[i], &D);
+    to_set(s_.trial[i], s_.friction[i], s_.bound[i], &D);
     if (D.isZero(0)) continue;
     const int first = s_.first[i], n = s_.last[i] - first;
     for (int a = 0; a < 3; ++a) {
@@ -213,18 +213,18 @@ void reserve(ContactBlocks& W, std::size_t contacts) {
   W.contact.reserve(contacts * contacts);
   W.block.reserve(contacts * contacts);
   W.own.reserve(contacts);
-  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->reserve(contacts);
+  for (auto* each : {&W.friction, &W.restitution, &W.rest, &W.bound}) each->reserve(contacts);
 }
 
 void clear(ContactBlocks& W) {
   for (auto* each : {&W.start, &W.contact}) each->clear();
   for (auto* each : {&W.block, &W.own}) each->clear();
-  for (auto* each : {&W.friction, &W.restitution, &W.rest}) each->clear();
+  for (auto* each : {&W.friction, &W.restitution, &W.rest, &W.bound}) each->clear();
 }
 
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
-  for (auto* each : {&scale, &friction, &rest}) each->reserve(k);
+  for (auto* each : {&scale, &friction, &rest, &bound}) each->reserve(k);
   for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial}) each->reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
@@ -235,7 +235,7 @@ void PileScratch::reserve(std::size_t k) {
 double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& p) {
   const double scale = scale_of(W.own[i]);
   PileResidual one;
-  one.add(scale * u, p / scale, W.friction[i], 0);
+  one.add(scale * u, p / scale, W.friction[i], 0, W.bound_of(i) / scale);
   return one.worst;
 }
 
@@ -260,7 +260,7 @@ Lawlessness lawlessness(const ContactBlocks& W, const std::vector<Vec3>& u,
   PileResidual sum;
   for (int i = 0; i < W.size(); ++i) {
     const double scale = scale_of(W.own[i]);
-    sum.add(scale * u[i], p[i] / scale, W.friction[i], scale * W.rest[i]);
+    sum.add(scale * u[i], p[i] / scale, W.friction[i], scale * W.rest[i], W.bound_of(i) / scale);
   }
   return sum.part();
 }

@@ -41,11 +41,11 @@ void clear(ContactBlocks& W);
 struct PileScratch {
   std::vector<int> island, order, place;  ///< (m) union-find; contacts by island; in its island
   // of one island with k contacts and r independent rates
-  std::vector<double> scale, friction, rest;  ///< (k)
-  std::vector<int> first, last;               ///< (k) columns of L that the rows of a contact have
-  std::vector<int> pivot;                     ///< (r) the rate that a column of L was made for
-  std::vector<double> W, L, K;                ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
-  std::vector<double> H, DL;                  ///< (r, r) F', (3, r)
+  std::vector<double> scale, friction, rest, bound;  ///< (k)
+  std::vector<int> first, last;  ///< (k) columns of L that the rows of a contact have
+  std::vector<int> pivot;        ///< (r) the rate that a column of L was made for
+  std::vector<double> W, L, K;   ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
+  std::vector<double> H, DL;     ///< (r, r) F', (3, r)
   std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
   std::vector<Vec3> u_best, p_best;                  ///< (k) nearest to the law so far
   std::vector<double> z, z_new, dz, F, F_new;        ///< (r)

@@ -30,10 +30,18 @@ Vec3 to_cone(const Vec3& a, double friction, Mat3* D) {
   return p;
 }
 
+Vec3 to_set(const Vec3& a, double friction, double bound, Mat3* D) {
+  if (!(bound > 0)) return to_cone(a, friction, D);
+  const bool is_inside = std::abs(a[0]) < bound;
+  if (D) D->setZero();
+  if (D && is_inside) (*D)(0, 0) = 1;
+  return {std::clamp(a[0], -bound, bound), 0, 0};
+}
+
 void PileIsland::set_sizes() {
   const auto k = static_cast<std::size_t>(k_);
   s_.place.resize(static_cast<std::size_t>(W_.size()));
-  for (auto* each : {&s_.scale, &s_.friction, &s_.rest}) each->resize(k);
+  for (auto* each : {&s_.scale, &s_.friction, &s_.rest, &s_.bound}) each->resize(k);
   for (auto* each : {&s_.first, &s_.last}) each->resize(k);
   for (auto* each : {&s_.u, &s_.p, &s_.q, &s_.base, &s_.trial}) each->resize(k);
   for (auto* each : {&s_.W, &s_.L, &s_.K}) each->resize(9 * k * k);
@@ -42,6 +50,7 @@ void PileIsland::set_sizes() {
     s_.place[contact(i)] = i;
     s_.scale[i] = scale_of(W_.own[contact(i)]);
     s_.friction[i] = W_.friction[contact(i)];
+    s_.bound[i] = W_.bound_of(contact(i)) / s_.scale[i];
     is_convex_ = is_convex_ && !(s_.friction[i] > 0);
     s_.rest[i] = W_.rest.empty() ? 0 : s_.scale[i] * W_.rest[contact(i)];
   }
@@ -122,7 +131,9 @@ void PileIsland::feel(const std::vector<Vec3>& dp) {
 
 PileResidual PileIsland::residual() const {
   PileResidual sum;
-  for (int i = 0; i < k_; ++i) sum.add(s_.u[i], s_.p[i], s_.friction[i], s_.rest[i]);
+  for (int i = 0; i < k_; ++i) {
+    sum.add(s_.u[i], s_.p[i], s_.friction[i], s_.rest[i], s_.bound[i]);
+  }
   return sum;
 }
 
@@ -151,7 +162,7 @@ double PileIsland::set_F(double rho, const std::vector<double>& at, std::vector<
       a[rate] -= rho * row_of_L(3 * i + rate).segment(first, n).dot(z.segment(first, n));
     }
     s_.trial[i] = a;
-    s_.q[i] = to_cone(a, s_.friction[i]);
+    s_.q[i] = to_set(a, s_.friction[i], s_.bound[i]);
     for (int rate = 0; rate < 3; ++rate) {
       F.segment(first, n) -=
           (s_.q[i][rate] - s_.p[i][rate]) * row_of_K(3 * i + rate).segment(first, n);

@@ -8,8 +8,12 @@
 
 namespace saltus {
 
-/// P(a), and its derivative where asked for.
+/// P(a) of Coulomb's cone, and its derivative where asked for.
 Vec3 to_cone(const Vec3& a, double friction, Mat3* D = nullptr);
+
+/// P(a) of the set that a row has: where `bound` is above 0 the interval |p| <= bound of dry
+/// friction in a joint, which has one rate and no normal; else the cone.
+Vec3 to_set(const Vec3& a, double friction, double bound, Mat3* D = nullptr);
 
 /// Contacts are scaled so that W_ii = 1 at most.
 inline double scale_of(const Mat3& own) { return 1 / std::sqrt(own.diagonal().maxCoeff()); }
@@ -19,8 +23,8 @@ using Row = Eigen::Map<Eigen::RowVectorXd>;
 /// Lawlessness of scaled contacts.
 struct PileResidual {
   double worst = 0, excess = 0, size = 0;
-  void add(const Vec3& u, const Vec3& p, double friction, double rest) {
-    const double off = (to_cone(p - u, friction) - p).cwiseAbs().maxCoeff();
+  void add(const Vec3& u, const Vec3& p, double friction, double rest, double bound) {
+    const double off = (to_set(p - u, friction, bound) - p).cwiseAbs().maxCoeff();
     worst = std::max(worst, off);
     excess = std::max(excess, off - rest);
     size = std::max({size, p.cwiseAbs().maxCoeff(), u.cwiseAbs().maxCoeff()});

@@ -99,7 +99,6 @@ void fit(Node& node) {
 
 void write_contact(const Scene& scene, double speed, int slot, const Pair& as, const Gap& g,
                    Node& node, Contact& c) {
-  const Pair& pair = node.pool[slot];
   add_gap_gradient(scene.model.tree, node.kin, as, g, node.dense);
   shape_row(scene.model, scene.trees, as, c.n);
   take_from(scene.trees, node.dense, c.n);
@@ -108,7 +107,7 @@ void write_contact(const Scene& scene, double speed, int slot, const Pair& as, c
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
   c.point_W = contact_point(g);
-  const ContactProperties& properties = scene.model.materials.between(pair.a, pair.b);
+  const ContactProperties properties = scene.model.contact_properties(node.pool.number(slot));
   c.restitution = properties.restitution;
   c.friction = properties.friction;
   classify(scene, node, speed, c);
@@ -132,16 +131,39 @@ void forget_pairs(Node& node) {
   node.sunk.assign(node.contact_of.size(), 0);
 }
 
+namespace {
+
+/// True where a joint's stop may touch, or would within epsilon_t h; node.dq is the way until then.
+bool is_near_a_stop(const Scene& scene, const Node& node) {
+  for (int slot = 0; slot < node.pool.limits(); ++slot) {
+    const Pair& pair = node.pool[slot];
+    const int joint = pair.on_a.joint;
+    const double phi = pair.stop.side * (node.kin.joint[joint].s - pair.stop.bound);
+    // 100: the velocity here may be another than that of the arc that ended here, as in `nearly`
+    const double way = 100 * std::abs(node.dq[scene.model.tree.drive[joint].velocity]);
+    if (phi <= pair.touch + way) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool find_contacts(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
-  if (model.pairs.empty()) return true;
+  if (!model.has_gaps()) return true;
   node.dq = scene.options.simultaneous * scene.options.h * node.v;
-  find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, scene.most_touch,
-                  node.broad);
+  if (!model.pairs.empty()) {
+    find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, scene.most_touch,
+                    node.broad);
+  }
   reset_contacts(node);
-  if (node.broad.candidates.empty()) return true;
+  const bool is_at_a_stop = is_near_a_stop(scene, node);
+  if (node.broad.candidates.empty() && !is_at_a_stop) return true;
   if (!node.has_factors && !set_velocity_at_node(scene, node)) return false;
   const double speed = typical_speed(scene, node);
+  for (int slot = 0; is_at_a_stop && slot < node.pool.limits(); ++slot) {
+    add_if_touching(scene, speed, slot, node);
+  }
   const Pair* solid = nullptr;
   bool is_near = true;
   for (const int number : node.broad.candidates) {

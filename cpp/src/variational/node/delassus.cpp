@@ -25,7 +25,8 @@ void set_columns(const Scene& scene, Node& node, Contact& c) {
 }  // namespace
 
 Neighbours::Neighbours(const Scene& scene) : on_(scene.trees.of.size()) {
-  const std::size_t pairs = static_cast<std::size_t>(scene.model.pairs.size());
+  const std::size_t pairs =
+      static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
   for (auto& each : on_) each.reserve(std::min(pairs, most_on_a_tree));
   found_.reserve(std::min(pairs, most_on_a_tree));
 }
@@ -60,6 +61,7 @@ void set_contact_blocks(const Scene& scene, std::span<Contact* const> contacts, 
     W.friction.push_back(by->friction);
     W.restitution.push_back(by->restitution);
     W.rest.push_back(by->epsilon_u);
+    W.bound.push_back(by->bound);
     u.push_back(Vec3::Zero());
     for (int k = 0; k < by->rates(); ++k) u.back()[k] = dot(scene.trees, by->row(k), node.v);
   }

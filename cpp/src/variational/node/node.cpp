@@ -21,9 +21,25 @@ Node::Node(const Scene& scene, PairPool& pairs)
       broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
   q.setZero(scene.model.tree.n_q);
   for (VecX* x : {&p, &v, &dq, &dense, &column}) x->setZero(scene.model.tree.n_v);
-  const std::size_t reserved =
-      std::min(static_cast<std::size_t>(scene.model.pairs.size()), contacts_reserved);
+  const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
+  add_dry_joints(scene, *this);
+}
+
+void add_dry_joints(const Scene& scene, Node& node) {
+  const ModelData& model = scene.model;
+  const VecX& friction = model.forces.friction;
+  for (int i = 0; i < model.tree.joints() && friction.size() > 0; ++i) {
+    const Drive& drive = model.tree.drive[i];
+    const bool is_base = model.packed.slot_of_velocity[drive.velocity] == model.packed.slot[i];
+    if (!is_base || !(friction[drive.velocity] > 0)) continue;
+    Contact row = fresh_contact(scene);
+    node.dense[drive.velocity] = 1;
+    shape_row(model, scene.trees, make_stop(model.tree, i, {1, 0}), row.n);
+    take_from(scene.trees, node.dense, row.n);
+    node.dry.push_back(std::move(row));
+    node.dry_force.push_back(friction[drive.velocity]);
+  }
 }
 
 bool set_velocity_at_node(const Scene& scene, Node& node) {
@@ -48,7 +64,7 @@ void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node
   node.q = q;
   node.p = p;
   node.has_factors = false;
-  if (!scene.model.pairs.empty()) place_frames(scene, node);  // else nobody asks for them
+  if (scene.model.has_gaps()) place_frames(scene, node);  // else nobody asks for them
 }
 
 Contact::Motion motion_of(double u, double epsilon_u) {

@@ -29,6 +29,7 @@ struct Contact {
   double epsilon_u = 0;  ///< [m/s]
   Motion motion = Motion::rests;
   double restitution = 1, friction = 0;
+  double bound = 0;      ///< [N s] above 0: no contact but a joint with dry friction, |p| <= bound
   Vec3 n_W;              ///< from b to a
   Vec3 p_WB, point_W;    ///< [m] witness on b; where the two touch, see contact_point
   ContactVector n;       ///< phi_q
@@ -51,7 +52,10 @@ struct Node {
   PairPool& pool;
   std::vector<Contact> contacts;  ///< a pool; the first `touching` are valid
   int touching = 0;
-  std::vector<int> contact_of;  ///< (pool) index in contacts, or -1
+  /// Joints with dry friction, as rows of one rate v_c; whoever lists one writes its bound.
+  std::vector<Contact> dry;
+  std::vector<double> dry_force;  ///< (dry) [N m | N]
+  std::vector<int> contact_of;    ///< (pool) index in contacts, or -1
   std::vector<double> sunk;  ///< (pool) [m] phi of a pair that is silent here; else 0. Edges that
                              ///< meet at their ends, which corners watch: minus infinity
   std::vector<int> silent;   ///< slots with an entry in `sunk`
@@ -71,6 +75,9 @@ struct Node {
   }
   double sunk_at(int slot) const { return slot < static_cast<int>(sunk.size()) ? sunk[slot] : 0; }
 };
+
+/// Those of the scene's joints with dry friction.
+void add_dry_joints(const Scene& scene, Node& node);
 
 /// With room for the rows of any pair.
 Contact fresh_contact(const Scene& scene);

@@ -18,9 +18,20 @@ bool are_same_shapes(const Pair& x, const Pair& y) {
 
 }  // namespace
 
-PairPool::PairPool(const ModelData& model) : all_(model.pairs.size() <= few) {
+PairPool::PairPool(const ModelData& model)
+    : all_(model.pairs.size() <= few), limits_(static_cast<int>(model.limits.size())) {
+  add_limits(model);
   if (!all_) table_.assign(first_entries, {0, -1});
   for (int k = 0; all_ && k < model.pairs.size(); ++k) add(model, k);
+}
+
+void PairPool::add_limits(const ModelData& model) {
+  for (int k = 0; k < limits_; ++k) {
+    const JointLimit& limit = model.limits[static_cast<std::size_t>(k)];
+    pair_.push_back(make_stop(model.tree, limit.joint, limit.stop));
+    number_.push_back(model.first_limit + k);
+    solid_of_.push_back(-1);
+  }
 }
 
 void PairPool::add(const ModelData& model, int number) {
@@ -36,7 +47,7 @@ void PairPool::add(const ModelData& model, int number) {
 }
 
 int PairPool::slot_of(const ModelData& model, int number) {
-  if (all_) return number;
+  if (all_) return limits_ + number;
   const std::size_t entry = entry_of(number);
   if (table_[entry].slot >= 0) return table_[entry].slot;
   table_[entry] = {number, size()};
@@ -64,10 +75,11 @@ bool PairPool::is_full() const { return !all_ && size() > many; }
 
 void PairPool::clear() {
   if (all_) return;
-  pair_.clear();
-  number_.clear();
+  const auto kept = static_cast<std::size_t>(limits_);
+  pair_.resize(kept);
+  number_.resize(kept);
   solid_.clear();
-  solid_of_.clear();
+  solid_of_.resize(kept);
   table_.assign(first_entries, {0, -1});
 }
 

@@ -1,8 +1,8 @@
 // The pairs that a stepper has met, each made once.
 //
-// What a step keeps by pair (contact, held, passed) is kept by its slot here. Where the model has
-// few pairs all are made at once, slot = number, and a step allocates nothing; of 5e7 only those
-// that come near each other are ever made.
+// What a step keeps by pair (contact, held, passed) is kept by its slot here. The first slots are
+// the joints' limits. Where the model has few pairs of shapes all are made at once, in order, and a
+// step allocates nothing; of 5e7 only those that come near each other are ever made.
 #pragma once
 
 #include <deque>
@@ -19,6 +19,7 @@ class PairPool {
   /// The slot of a pair, which is made if it is new: then slots grow by one.
   int slot_of(const ModelData& model, int number);
 
+  int limits() const { return limits_; }  ///< slots below are joints' limits
   int size() const { return static_cast<int>(number_.size()); }
   const Pair& operator[](int slot) const { return pair_[slot]; }
   int number(int slot) const { return number_[slot]; }  ///< in model.pairs
@@ -41,7 +42,10 @@ class PairPool {
   std::size_t entry_of(int number) const;
   void grow_table();
 
+  void add_limits(const ModelData& model);
+
   bool all_;
+  int limits_;
   std::deque<Pair> pair_, solid_;  ///< at addresses that stay
   std::vector<int> number_;        ///< (slots)
   std::vector<int> solid_of_;      ///< (slots) index in solid_, or -1

@@ -20,7 +20,9 @@ struct Scene {
   double most_touch = 0;      ///< [m] no pair's epsilon_phi is larger
 
   /// ArcProblem::whole of these options.
-  double whole_step() const { return options.law == ImpactLaw::compensated ? options.h : 0; }
+  double whole_step() const {
+    return options.law == ImpactLaw::compensated && !model.forces.acts() ? options.h : 0;
+  }
 };
 
 }  // namespace saltus

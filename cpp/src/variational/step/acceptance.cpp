@@ -53,8 +53,10 @@ void Stepper::Impl::check_energy() {
   const double h = scene.options.h;
   const double slow = h * scene.model.mass.gravity.norm() + scene.most_touch / h;
   const double least = 0.5 * scene.total_mass * slow * slow;
-  const double gain = node_energy(scene, node) - energy;
-  if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
+  const double gain = node_energy(scene, node) - energy - done;
+  if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least, done_size})) {
+    fail_energy(gain);
+  }
 }
 
 /// Of free bodies it is asked where Newton's method took long: a root near its guess takes 2 to 4
@@ -67,9 +69,9 @@ void Stepper::Impl::check_free_energy() {
   if (!measure(scene.model, node.q, node.p, h, meter)) return;
   const double T = meter.energy.kinetic, H = T + meter.energy.potential;
   if (!measure(scene.model, work.arc.q_end, work.arc.p_end, h, meter)) return;
-  const double T_end = meter.energy.kinetic, gain = T_end + meter.energy.potential - H;
+  const double T_end = meter.energy.kinetic, gain = T_end + meter.energy.potential - H - done;
   kinetic = T;
-  if (std::abs(gain) > 0.3 * std::max(T, T_end)) fail_energy(gain);
+  if (std::abs(gain) > 0.3 * std::max({T, T_end, done_size})) fail_energy(gain);
 }
 
 /// No arc ends with bodies deeper in each other than it started. Where parts come to face each

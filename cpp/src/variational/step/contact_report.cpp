@@ -38,6 +38,7 @@ void tell_residual(const ContactBlocks& W, double residual, StepReport& report) 
 
 void clear(StepReport& report) {
   report.iterations = report.arcs = report.sustained = 0;
+  report.work.setZero();
   report.residual = report.friction_residual = 0;
   report.impacts.clear();
   report.impulses.clear();
@@ -51,6 +52,7 @@ void tell_rows(const Node& node, const Rows& rows, StepReport& report) {
   report.sustained += count_pressed(rows);
   for (const int i : rows.active) {
     const Row& row = rows.row[i];
+    if (row.is_joint()) continue;
     const Contact& contact = node.contacts[row.contact];
     tell(acted(node, contact, row.p[0], across(contact, row.p)), report);
   }

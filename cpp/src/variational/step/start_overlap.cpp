@@ -24,6 +24,7 @@ using Depths = std::map<std::pair<std::string, std::string>, double>;
 
 void note(const ModelData& model, const Pair& pair, double phi, Depths& depths) {
   if (phi >= -overlap_touches * pair.touch) return;
+  if (pair.is_stop()) return;  // check_limits has said so
   double& depth = depths[std::minmax(name_of(model, pair.a), name_of(model, pair.b))];
   depth = std::max(depth, -phi);
 }
@@ -44,9 +45,26 @@ std::string list(const Depths& depths) {
   return text.str();
 }
 
+/// A start beyond a joint's limit is told by joint, value and limit.
+void check_limits(const ModelData& model, const VecX& q) {
+  for (const JointLimit& limit : model.limits) {
+    const double x = q[limit.coordinate], bound = limit.stop.bound;
+    const double touch = relative_touch * std::max(1.0, std::abs(bound));
+    if (limit.stop.side * (x - bound) >= -overlap_touches * touch) continue;
+    const std::string& joint = model.coordinates[static_cast<std::size_t>(limit.coordinate)].joint;
+    std::ostringstream text;
+    text << "joint \"" << joint << "\" starts at " << x << ", beyond its "
+         << (limit.stop.side > 0 ? "lower" : "upper") << " limit " << bound
+         << "; start within its limits (neutral() is), or load the model without limits "
+            "(effects)";
+    throw ModelError(text.str(), "joint", joint);
+  }
+}
+
 }  // namespace
 
 void Stepper::Impl::check_overlap() {
+  check_limits(scene.model, node.q);
   Depths depths;
   for (int i = 0; i < node.touching; ++i) {
     note(scene.model, pool[node.contacts[i].slot], node.contacts[i].phi, depths);

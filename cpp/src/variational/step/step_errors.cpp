@@ -9,7 +9,14 @@
 namespace saltus {
 
 std::string Stepper::Impl::name_of(int slot) const {
-  return scene.shared.pair_name(pool.number(slot));
+  if (slot >= 0) return scene.shared.pair_name(pool.number(slot));
+  // of a row that is a joint with dry friction: -2 - k
+  const Contact& row = node.dry[static_cast<std::size_t>(-2 - slot)];
+  int velocity = 0;
+  for (int c = 0; c < scene.model.tree.n_v; ++c) {
+    if (dot(scene.trees, row.n, VecX::Unit(scene.model.tree.n_v, c)) != 0) velocity = c;
+  }
+  return "the dry friction of " + scene.model.velocity_names[static_cast<std::size_t>(velocity)];
 }
 
 std::string Stepper::Impl::contact_list() const {

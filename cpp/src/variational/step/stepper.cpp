@@ -48,20 +48,21 @@ const StepReport& Stepper::report() const { return impl_->report; }
 const Model& Stepper::model() const { return impl_->scene.shared; }
 const StepOptions& Stepper::options() const { return impl_->scene.options; }
 
-State Stepper::advance(const State& state) {
+State Stepper::advance(const State& state, const ForceInput& input) {
   State next = state;
-  impl_->step(next);
+  impl_->step(next, input);
   return next;
 }
 
-void Stepper::step(State& state) { impl_->step(state); }
+void Stepper::step(State& state, const ForceInput& input) { impl_->step(state, input); }
 
 void Stepper::forget() { impl_->last_is_valid = false; }
 
 // A step that cannot be made is tried again from its start: if it was the guesses of the steps
 // before that led astray, without them; then with shorter arcs; at last by time stepping where
 // nothing else is found.
-void Stepper::Impl::step(State& state) {
+void Stepper::Impl::step(State& state, const ForceInput& with) {
+  take(with);
   report.fallbacks.clear();
   const double t = state.t;
   const bool is_own = last_is_valid && state == last;  // where a step of ours ended
@@ -175,7 +176,7 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   start_anew(flight.broad);
   if (pool.is_full()) forget_pairs(node);
   place_node(scene, state.t, q, state.p, node);
-  if (scene.model.pairs.empty()) place_frames(scene, node);  // for its velocity
+  if (!scene.model.has_gaps()) place_frames(scene, node);  // for its velocity
   if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) {
     fail(FlightOutcome::not_converged);
   }
@@ -188,6 +189,8 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
   report.iterations += std::exchange(flight.work.iterations, 0);
   report.residual = std::max(report.residual, work.arc.residual);
   if (outcome != FlightOutcome::arrived) fail(outcome);
+  add_work();
+  add_dry_work();
   if (launch == nullptr) check_free_energy();
   note_start();
   ++report.arcs;
@@ -204,6 +207,7 @@ void Stepper::Impl::end_arc(double t) {
   check_energy();
   check_gaps();
   tell_half_kick(kick, report);
+  report.work[scene.model.forces.n_u() + 1] += kick.dry_work;
   if (!has_approach(node)) check_idle_arcs();
   if (report.iterations > most_work()) fail_work();
 }

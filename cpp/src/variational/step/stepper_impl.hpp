@@ -25,13 +25,17 @@ struct Stepper::Impl {
         unlocated(scene) {
     last.q.setZero(scene.model.tree.n_q);
     last.p.setZero(scene.model.tree.n_v);
+    report.work.setZero(scene.model.forces.n_u() + 3);
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
     report.settlings.reserve(64);
     report.contacts.reserve(64);
   }
 
-  void step(State& state);
+  void step(State& state, const ForceInput& with);
+  void take(const ForceInput& with);  // step_input.cpp
+  void add_work();                    // likewise
+  void add_dry_work();                // likewise
   void step_once(State& state, bool is_own);
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
@@ -79,6 +83,7 @@ struct Stepper::Impl {
   EnergyMeter meter;
   Node end;             // of an arc by time stepping
   Unlocated unlocated;  // likewise
+  ForceInput input;     // of the step
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
@@ -91,6 +96,8 @@ struct Stepper::Impl {
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
   double kinetic = 0, energy = 0;  // [J] if contacts hold the arc
+  // [J] what forces did in it, and the sum of what each did
+  double done = 0, done_size = 0;
 };
 
 }  // namespace saltus

@@ -62,6 +62,7 @@ void place_end_node(const Scene& scene, double tau, const Node& node, Node& end,
 void stop(const Scene& scene, Unlocated& x) {
   x.v = x.v_free;
   for (const Contact& each : x.cuts) {
+    if (each.bound > 0) continue;  // a joint with dry friction
     for (const ContactVector::Part& part : each.n.part) {
       if (part.tree < 0) continue;
       for (const int k : scene.trees.of[part.tree]) x.v[k] = 0;
@@ -70,9 +71,12 @@ void stop(const Scene& scene, Unlocated& x) {
   x.p.assign(x.cuts.size(), Vec3::Zero());
 }
 
-/// M(q+) v, and v shortened where the arc gained energy. @return false where that is no help
-bool set_momenta(const Scene& scene, double before, Node& end, ArcScratch& arc, Unlocated& x) {
+/// M(q+) v, and v shortened where the arc gained energy beyond what forces do.
+/// @return false where that is no help
+bool set_momenta(const Scene& scene, double tau, double start, Node& end, ArcScratch& arc,
+                 Unlocated& x) {
   const double V = potential_energy(scene.model.packed, end.w);
+  const double before = start + (arc.has_forces ? tau * x.force.dot(x.v) : 0);
   evaluate_at(scene.model, x.q_end, end.p, x.v, arc);
   const double T = 0.5 * x.v.dot(arc.L_v), most = before - V;
   double part = 1;
@@ -87,6 +91,7 @@ void tell(const Node& node, Unlocated& x) {
   x.impulses.clear();
   double most = 0;
   for (std::size_t i = 0; i < x.cuts.size(); ++i) {
+    if (x.cuts[i].bound > 0) continue;
     const Vec3& p = x.p[i];
     x.impulses.push_back(acted(node, x.cuts[i], p[0], across(x.cuts[i], p)));
     if (p.norm() > most) most = p.norm(), x.pair = x.impulses.back().pair;
@@ -109,11 +114,16 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
   set_velocity_at_node(scene, node);
   const double before = node_energy(scene, node);
   evaluate_at(model, node.q, node.p, node.v, arc);
+  x.force = arc.forces.Q;
   x.v_free = node.p + tau * arc.L_q;
   solve(model.tree, model.packed, node.M, x.v_free);
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     add_cut(c, std::max(c.phi, 0.0) / tau, x);
+  }
+  for (std::size_t k = 0; k < node.dry.size(); ++k) {
+    add_cut(node.dry[k], 0, x);
+    x.cuts.back().bound = tau * node.dry_force[k];
   }
   Rung rung = Rung::stopped;
   for (int round = 0; round < most_rounds; ++round) {
@@ -129,7 +139,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
     stop(scene, x);
     place_end_node(scene, tau, node, end, x);
   }
-  if (!set_momenta(scene, before, end, arc, x)) {
+  if (!set_momenta(scene, tau, before, end, arc, x)) {
     rung = Rung::stopped;
     x.v.setZero();
     end.v.setZero();

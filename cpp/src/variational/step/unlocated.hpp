@@ -33,6 +33,7 @@ struct Unlocated {
   ContactBlocks W;
   PileScratch pile;
   VecX v_free, v, q_end;
+  VecX force;  ///< (n_v) what drives the step, at its start
 };
 
 /// Leaves the node tau later, at time t. `end` is a node that may be used, and `arc` scratch.

@@ -1,0 +1,97 @@
+// Forces on the coordinates that no potential of the bodies makes: damping, motors, servos.
+//
+// Theory, F1, F2. A force Q(q, v, u) is evaluated in the middle of an arc, with the control u held
+// over the step, and enters the arc's equation with L_q. What acts through gears has a length and a
+// rate of its own, l = sum of ratio q and l' = sum of ratio v, and pushes each coordinate with its
+// ratio times
+//
+//   f = clip(gain clip(u) + bias_0 + bias_l l + bias_v l', +-effort)       MuJoCo's `general`
+//
+//   motor              gain 1, bias 0               u is the force
+//   position servo     gain kp, bias_l -kp, bias_v -kd       u is the length to reach
+//   velocity servo     gain kv, bias_v -kv          u is the rate to reach
+//
+// The actuators of one coordinate together push by `effort` of its joint at most; one over several
+// coordinates has its own effort alone.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "saltus/tree/tree.hpp"
+
+namespace saltus {
+
+/// How an actuator moves one coordinate.
+struct Gear {
+  int velocity;    ///< index in v
+  int coordinate;  ///< the same coordinate in q
+  double ratio;
+};
+
+struct Actuator {
+  std::string name;
+  std::vector<Gear> gears;
+  double gain = 1;
+  double bias = 0, bias_l = 0, bias_v = 0;
+  double effort = std::numeric_limits<double>::infinity();  ///< [N m | N] of f
+  double lower = -std::numeric_limits<double>::infinity();  ///< of u
+  double upper = std::numeric_limits<double>::infinity();
+
+  bool is_single() const { return gears.size() == 1; }
+};
+
+/// Frozen; written by build(). Vectors by velocity are empty where no coordinate has any.
+struct ForceModel {
+  VecX damping;   ///< (n_v) [N m s/rad | N s/m] >= 0; of a ball its three are equal
+  VecX friction;  ///< (n_v) [N m | N] dry, 0 of balls
+  VecX effort;    ///< (n_v) [N m | N] of all actuators of one coordinate; infinite where no limit
+  std::vector<Actuator> actuators;
+
+  int n_u() const { return static_cast<int>(actuators.size()); }
+  /// Actuators over several coordinates.
+  int n_coupled() const;
+  /// True where steps evaluate forces even if nobody applies any.
+  bool acts() const { return damping.size() > 0 || !actuators.empty(); }
+};
+
+/// A force on a body and a torque, in the world's axes or in the body's.
+struct AppliedWrench {
+  int joint = -1;               ///< of the tree, whose body it acts on
+  Vec3 point_J = Vec3::Zero();  ///< [m] where, in that joint's frame
+  Vec3 force = Vec3::Zero();    ///< [N]
+  Vec3 torque = Vec3::Zero();   ///< [N m]
+  bool in_body = false;         ///< axes of the joint's frame, which turn with the body
+};
+
+/// What drives a model over a step.
+struct ForceInput {
+  VecX control;  ///< (n_u) or empty: 0
+  VecX qfrc;     ///< (n_v) [N m | N] or empty: 0
+  std::vector<AppliedWrench> wrenches;
+
+  bool acts() const { return qfrc.size() > 0 || !wrenches.empty(); }
+};
+
+/// Forces at one (q, v, u), with the slopes that Newton's method needs.
+struct ForceValues {
+  ForceValues() = default;
+  SALTUS_EXPORT ForceValues(const ForceModel& forces, int n_v);
+
+  VecX Q;         ///< (n_v) the sum
+  VecX size;      ///< (n_v) of the terms it is a sum of, for rounding
+  VecX Q_q, Q_v;  ///< (n_v) slopes of each by its own coordinate
+  MatX coupled;   ///< (n_v, r) gears of the actuators over several coordinates
+  VecX slope;     ///< (2 r) of these by l, by l'
+  VecX effort;    ///< (n_u) f of each actuator, after all limits
+  VecX rate;      ///< (n_u) l' of each
+  VecX damping;   ///< (n_v) Q of damping alone
+  VecX single;    ///< (n_v) scratch: of single actuators before the joint's limit
+};
+
+/// Writes all of `out` but wrenches, whose place is that of bodies.
+SALTUS_EXPORT void set_forces(const ForceModel& forces, const VecRef& q, const VecRef& v,
+                              const ForceInput& input, ForceValues& out);
+
+}  // namespace saltus

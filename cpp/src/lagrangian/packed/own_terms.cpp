@@ -1,0 +1,152 @@
+// What a coordinate has of its own: armature, a spring, slopes of forces (theory, F1).
+//
+// All of it stands in one slot a coordinate and couples nothing, so that plain loops over
+// coordinates do.
+#include "lagrangian/packed/own_terms.hpp"
+
+#include <cmath>
+
+namespace saltus::packed {
+namespace {
+
+/// Calls f(slot, armature, stiffness, rest) for each coordinate.
+template <class F>
+void for_each_own(const PackedTree& t, const F& f) {
+  if (t.own.empty()) return;
+  for (const int slot : t.slot_of_velocity) {
+    const double* own = at(t.own, slot);
+    f(slot, own[0], own[lanes], own[2 * lanes]);
+  }
+}
+
+/// Delta += -tau/2 Q_v C of a ball.
+void add_to_ball(const PackedBall& ball, double slope, double tau, PackedMatrix& J) {
+  double* numbers = at(J.ball, ball.slot[2]);
+  for (int c = 0; c < 9; ++c)
+    numbers[(18 + c) * lanes] -= tau / 2 * slope * numbers[(9 + c) * lanes];
+}
+
+}  // namespace
+
+void add_own_partials(const PackedTree& t, Packed& w) {
+  for_each_own(t, [&](int slot, double armature, double stiffness, double rest) {
+    double* first = at(w.first, slot);
+    first[0] += armature * *at(w.s_dot, slot);
+    first[lanes] -= stiffness * (*at(w.s, slot) - rest);
+  });
+}
+
+void add_own_scale(const PackedTree& t, double tau, Packed& w) {
+  for_each_own(t, [&](int slot, double armature, double stiffness, double rest) {
+    const double pull = stiffness * (std::abs(*at(w.s, slot)) + std::abs(rest));
+    *at(w.scale, slot) += armature * std::abs(*at(w.s_dot, slot)) + tau / 2 * pull;
+  });
+}
+
+double own_energy(const PackedTree& t, const Packed& w) {
+  double V = 0;
+  for_each_own(t, [&](int slot, double, double stiffness, double rest) {
+    const double x = *at(w.s, slot) - rest;
+    V += stiffness / 2 * x * x;
+  });
+  return V;
+}
+
+void add_own_products(const PackedTree& t, const Packed& w, PackedProducts& out) {
+  for_each_own(t, [&](int slot, double, double stiffness, double) {
+    at(out.by_joint, slot)[2 * lanes] -= stiffness * *at(w.s_dot, slot);
+  });
+  if (w.slope.empty()) return;
+  for (const int slot : t.slot_of_velocity) {
+    at(out.by_joint, slot)[2 * lanes] += *at(w.slope, slot) * *at(w.s_dot, slot);
+  }
+  const std::vector<int>& slots = t.slot_of_velocity;
+  for (Eigen::Index r = 0; r < w.coupled.cols(); ++r) {
+    double rate = 0;
+    for (std::size_t c = 0; c < slots.size(); ++c) {
+      rate += w.coupled(static_cast<Eigen::Index>(c), r) * *at(w.s_dot, slots[c]);
+    }
+    for (std::size_t c = 0; c < slots.size(); ++c) {
+      at(out.by_joint, slots[c])[2 * lanes] +=
+          w.coupled(static_cast<Eigen::Index>(c), r) * w.coupled_slope[2 * r] * rate;
+    }
+  }
+}
+
+void add_own_shadow(const PackedTree& t, const Packed& w, ShadowTerm& out) {
+  for_each_own(t, [&](int slot, double armature, double stiffness, double) {
+    const double v = *at(w.s_dot, slot), a = *at(out.s_ddot, slot);
+    double* to = at(out.by_joint, slot);
+    to[0] += stiffness * v * v - armature * a * a;
+    to[lanes] -= 2 * stiffness * a;
+    to[2 * lanes] += 2 * stiffness * v;
+  });
+}
+
+void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J) {
+  const bool has_slopes = tau > 0 && !w.slope.empty();
+  if (t.own.empty() && !has_slopes) {
+    J.added.clear();
+    return;
+  }
+  J.added.assign(static_cast<std::size_t>(t.slots / lanes), {});
+  for_each_own(t, [&](int slot, double armature, double stiffness, double) {
+    *at(J.added, slot) = armature + tau * tau / 4 * stiffness;
+  });
+  if (!has_slopes) return;
+  for (const PackedBall& ball : t.balls) {
+    add_to_ball(ball, at(w.slope, ball.slot[2])[lanes], tau, J);
+  }
+  for (const int slot : t.slot_of_velocity) {
+    const double* slope = at(w.slope, slot);
+    *at(J.added, slot) -= tau / 2 * (slope[lanes] + tau / 2 * slope[0]);
+  }
+  for (const PackedBall& ball : t.balls) {  // those are in Delta
+    for (const int slot : ball.slot) *at(J.added, slot) = 0;
+  }
+}
+
+void add_to_diagonal(const PackedGroup& g, PackedMatrix& J) {
+  if (J.added.empty()) return;
+  for (int k = 0; k < g.positions; ++k) {
+    for (int lane = 0; lane < g.width; ++lane) {
+      const double own = *at(J.added, g.slot(k) + lane);
+      const long entry = g.row[k] * lanes + g.level[k] * g.width + lane;
+      J.lower[entry / lanes].x[0][entry % lanes] += own;
+      if (!J.symmetric) J.upper[entry / lanes].x[0][entry % lanes] += own;
+    }
+  }
+}
+
+bool factorize_coupled(const Tree& tree, const PackedTree& t, const Packed& w, double tau,
+                       PackedMatrix& J) {
+  const Eigen::Index n = w.coupled.cols();
+  J.is_coupled = false;
+  if (n == 0 || !(tau > 0) || w.coupled_slope.isZero(0)) return true;
+  J.G = w.coupled;
+  J.JG.resize(J.G.rows(), n);
+  for (VecX* each : {&J.D, &J.Gx, &J.Gy}) each->resize(n);
+  for (Eigen::Index r = 0; r < n; ++r) {
+    J.column = J.G.col(r);
+    solve_scaled(tree, t, J, J.column);
+    J.JG.col(r) = J.column;
+    J.D[r] = -tau / 2 * (w.coupled_slope[2 * r + 1] + tau / 2 * w.coupled_slope[2 * r]);
+  }
+  J.inner.noalias() = J.G.transpose() * J.JG;
+  J.inner = J.D.asDiagonal() * J.inner;
+  J.inner.diagonal().array() += 1;
+  J.inner_lu.compute(J.inner);
+  const auto pivots = J.inner_lu.matrixLU().diagonal().array();
+  J.is_coupled = pivots.isFinite().all() && (pivots.abs() > 0).all();
+  return J.is_coupled;
+}
+
+void solve_coupled(PackedMatrix& J, VecX& x) {
+  if (!J.is_coupled) return;
+  J.Gx.noalias() = J.G.transpose() * x;
+  J.Gx.array() *= J.D.array();
+  J.Gy = J.inner_lu.solve(J.Gx);
+  x.noalias() -= J.JG * J.Gy;
+}
+
+}  // namespace saltus::packed

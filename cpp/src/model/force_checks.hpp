@@ -1,0 +1,16 @@
+// What is wrong with a joint's forces and with an actuator.
+#pragma once
+
+#include "saltus/model/description.hpp"
+
+namespace saltus {
+
+/// @throws ModelError on negative damping, friction, armature or stiffness, numbers that are not
+/// finite, a restitution outside of 0 .. 1, and what a joint of this type cannot have.
+void check_forces(const JointSpec& joint);
+
+/// @throws ModelError on no name, no joint, numbers that are not finite, effort or limits that
+/// leave nothing.
+void check_actuator(const ActuatorSpec& actuator);
+
+}  // namespace saltus

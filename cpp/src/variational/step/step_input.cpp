@@ -1,0 +1,73 @@
+// What drives a step, and the work that it does.
+#include <cmath>
+
+#include "variational/step/stepper_impl.hpp"
+
+namespace saltus {
+namespace {
+
+void check_input(const Model& model, const ForceInput& input) {
+  const int n_u = model->forces.n_u();
+  if (input.control.size() > 0) check_vector(input.control, n_u, "control", "actuators");
+  if (input.qfrc.size() > 0) check_vector(input.qfrc, model.n_v(), "qfrc", "velocities");
+  for (const AppliedWrench& wrench : input.wrenches) {
+    if (wrench.joint < 0 || wrench.joint >= model->tree.joints()) {
+      throw ModelError("a wrench acts on a body that is fixed to the world");
+    }
+    const bool is_finite =
+        wrench.point_J.allFinite() && wrench.force.allFinite() && wrench.torque.allFinite();
+    if (!is_finite) throw ModelError("a wrench has a number that is not finite");
+  }
+}
+
+}  // namespace
+
+void Stepper::Impl::take(const ForceInput& with) {
+  check_input(scene.shared, with);
+  const bool has_forces = scene.model.forces.acts() || with.acts();
+  if (has_forces && scene.options.law == ImpactLaw::compensated && !scene.model.forces.acts()) {
+    throw ModelError("law compensated takes no applied forces; nodal_energy does");
+  }
+  input = with;
+  ArcScratch& arc = flight.work.scratch;
+  arc.input = &input;
+  arc.has_forces = has_forces;
+}
+
+// Of the arc just flown, whose middle was evaluated last.
+void Stepper::Impl::add_work() {
+  done = done_size = 0;
+  const ArcScratch& s = flight.work.scratch;
+  if (!s.has_forces) return;
+  const Arc& arc = flight.work.arc;
+  const auto n = s.forces.effort.size();
+  const auto add = [&](Eigen::Index source, double power) {
+    const double each = arc.tau * power;
+    report.work[source] += each;
+    done += each;
+    done_size += std::abs(each);
+  };
+  for (Eigen::Index k = 0; k < n; ++k) add(k, s.forces.effort[k] * s.forces.rate[k]);
+  if (scene.model.forces.damping.size() > 0) add(n, s.forces.damping.dot(arc.v));
+  double applied = s.wrench_force.dot(arc.v);
+  if (input.qfrc.size() > 0) applied += input.qfrc.dot(arc.v);
+  add(n + 2, applied);
+}
+
+// Of the kick that opened the arc: half the impulse times the rates before and after it.
+void Stepper::Impl::add_dry_work() {
+  if (node.dry.empty() || !node.has_factors) return;
+  ArcWork& arc = flight.work;
+  VecX& after = arc.scratch.x;
+  after = arc.rows.momentum;
+  solve(scene.model.tree, scene.model.packed, node.M, after);
+  for (const int i : arc.rows.active) {
+    const Row& row = arc.rows.row[i];
+    if (!row.is_joint()) continue;
+    const ContactVector& n = contact_of(node, row).n;
+    const double rates = dot(scene.trees, n, node.v) + dot(scene.trees, n, after);
+    report.work[scene.model.forces.n_u() + 1] += row.p[0] * rates / 2;
+  }
+}
+
+}  // namespace saltus
