@@ -189,9 +189,10 @@ def warn_of_time_stepping(runs: Sequence[Trajectory]) -> None:
     k = next(i for i, rows in enumerate(lossy) if len(rows))
     first, energy = lossy[k][0], sum(float(rows["energy"].sum()) for rows in lossy)
     at = f" of run {k}" if len(runs) > 1 else ""
+    of = f", {runs[k].pair_names[first['pair']]}" if first["pair"] >= 0 else ""
     warnings.warn(
         f"{counted(arcs, 'arc')} by time stepping, which took {-energy:.2g} J: the first at "
-        f"t = {first['t']:g} s{at}, {runs[k].pair_names[first['pair']]}; see fallbacks, and "
+        f"t = {first['t']:g} s{at}{of}; see fallbacks, and "
         "strict=True makes such steps errors",
         StepWarning,
         stacklevel=3,

@@ -64,7 +64,8 @@ void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node
   node.q = q;
   node.p = p;
   node.has_factors = false;
-  if (scene.model.has_gaps()) place_frames(scene, node);  // else nobody asks for them
+  // else nobody asks for them
+  if (scene.model.has_gaps() || !node.dry.empty()) place_frames(scene, node);
 }
 
 Contact::Motion motion_of(double u, double epsilon_u) {
