@@ -222,14 +222,14 @@ def _slider(i: int, axes: str, at: tuple[float, float, float], radius: float, ma
     <child link="slide_{i}"/>
     <origin xyz="{" ".join(map(_number, at))}"/>
     <axis xyz="{unit[first]}"/>
-    <limit lower="-1000" upper="1000" effort="0" velocity="1000"/>
+    <limit lower="-1e6" upper="1e6" effort="0" velocity="1000"/>
   </joint>
   <link name="slide_{i}"/>
   <joint name="{second}_{i}" type="prismatic">
     <parent link="slide_{i}"/>
     <child link="ball_{i}"/>
     <axis xyz="{unit[second]}"/>
-    <limit lower="-1000" upper="1000" effort="0" velocity="1000"/>
+    <limit lower="-1e6" upper="1e6" effort="0" velocity="1000"/>
   </joint>
   <link name="ball_{i}">
 {_ball(radius, mass, 0.0)}  </link>
