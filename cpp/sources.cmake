@@ -15,6 +15,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/ball_place.cpp
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp
+  cpp/src/lagrangian/packed/newton_euler.cpp
   cpp/src/lagrangian/packed/pack.cpp
   cpp/src/lagrangian/packed/passes.cpp
   cpp/src/lagrangian/packed/place.cpp
@@ -63,7 +64,9 @@ set(SALTUS_SOURCES
   # model
   cpp/src/model/assembly.cpp
   cpp/src/model/configuration.cpp
+  cpp/src/model/dynamics.cpp
   cpp/src/model/filter.cpp
+  cpp/src/model/frames.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
