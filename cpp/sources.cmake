@@ -63,6 +63,7 @@ set(SALTUS_SOURCES
   cpp/src/collision/chord/chord_path.cpp
   # model
   cpp/src/model/assembly.cpp
+  cpp/src/model/changes.cpp
   cpp/src/model/configuration.cpp
   cpp/src/model/dynamics.cpp
   cpp/src/model/filter.cpp

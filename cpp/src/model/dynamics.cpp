@@ -118,8 +118,8 @@ MatX centres_of_mass(const Model& model, const RowsRef& q) {
 }
 
 MatX momenta(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& p_W) {
-  const Eigen::Index rows = count_rows({coordinates(model, q), velocities(model, v, "v"),
-                                        {p_W, 3, "about", "axes in the world"}});
+  const Eigen::Index rows = count_rows(
+      {coordinates(model, q), velocities(model, v, "v"), {p_W, 3, "about", "axes in the world"}});
   MatX out(rows, 6);
   for_each_row(model, q, rows, [&](Eigen::Index row, Frames& frames) {
     Vec6 sum = frames.momentum(row_of(v, row));
@@ -141,8 +141,8 @@ MatX gravity_forces(const Model& model, const RowsRef& q) {
 }
 
 MatX inverse_dynamics(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& a) {
-  const Eigen::Index rows = count_rows(
-      {coordinates(model, q), velocities(model, v, "v"), velocities(model, a, "a")});
+  const Eigen::Index rows =
+      count_rows({coordinates(model, q), velocities(model, v, "v"), velocities(model, a, "a")});
   MatX out(rows, model.n_v());
   VecX forces;
   for_each_row(model, q, rows, [&](Eigen::Index row, Frames& frames) {

@@ -88,6 +88,10 @@ int Model::link(const std::string& name) const {
   return index_of(names_of(data_->links), "link", name);
 }
 
+int Model::joint(const std::string& name) const {
+  return index_of(names_of(data_->joints), "joint", name);
+}
+
 std::string Model::pair_name(int pair) const {
   return saltus::pair_name(data_->shapes, this->pair(pair));
 }

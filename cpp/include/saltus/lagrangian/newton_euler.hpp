@@ -4,13 +4,13 @@
 //   body:  f_k = I_k (A_k - [0; g]) + V_k x* I_k V_k
 //   up:    X_i = sum of f_k over the subtree                tau_i = S_i.X_i
 //
-// Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 5 (2008), here in world axes about
-// one point O, so that nothing is transformed on the way.
+// Reference: R. Featherstone, Rigid Body Dynamics Algorithms, ch. 5 (2008), here in world axes
+// about one point O, so that nothing is transformed on the way.
 //
 // Balls need no case of their own. Their axes S_k move with what is above the ball, S_k' =
 // V_above x S_k, and W_k holds V of the third joint instead; but V = V_above + sum S_k w_k, and
-// sum S_k w_k crossed with itself vanishes: the sums of W_k w_k and of S_k' w_k are the same. tau of
-// a ball is the torque in the axes of its placement, and s'' the rates of w in these axes.
+// sum S_k w_k crossed with itself vanishes: the sums of W_k w_k and of S_k' w_k are the same. tau
+// of a ball is the torque in the axes of its placement, and s'' the rates of w in these axes.
 #pragma once
 
 #include "saltus/lagrangian/packed.hpp"

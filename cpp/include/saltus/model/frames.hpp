@@ -52,7 +52,8 @@ class SALTUS_EXPORT Frames {
   /// Spatial momentum [kg m^2/s; kg m/s] about the world's origin.
   Vec6 momentum(const VecRef& v);
 
-  /// -dV/dq (n_v) [N m | N]: what gravity does to the coordinates; holding still takes its opposite.
+  /// -dV/dq (n_v) [N m | N]: what gravity does to the coordinates; holding still takes its
+  /// opposite.
   void gravity_forces(VecX& out);
   /// M a + c - gravity_forces (n_v): the forces that make these accelerations.
   void inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out);
