@@ -163,6 +163,9 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_collision.cpp
   python/bindings/bind_configuration.cpp
   # model
+  python/bindings/bind_changes.cpp
+  python/bindings/bind_dynamics.cpp
+  python/bindings/bind_links.cpp
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_motion.cpp

@@ -136,6 +136,7 @@ void bind_model_builder(py::module_& m) {
   bind_add_joint(c);
   bind_materials(c);
   bind_scenes(c);
+  bind_changes(c, m);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",
@@ -172,7 +173,12 @@ void bind_model_builder(py::module_& m) {
       .def_property_readonly("warnings", &ModelBuilder::warnings)
       .def("check", &ModelBuilder::check, "The checks of `build` alone; raises ModelError.")
       .def("build", &build, docs::build)
-      .def("__repr__", [](const ModelBuilder&) { return "ModelBuilder(...)"; });
+      .def("__repr__", [](const ModelBuilder& builder) {
+        const ModelDescription& d = builder.description();
+        return "ModelBuilder('" + d.name + "', " + counted(std::ssize(d.links), "link") + ", " +
+               counted(std::ssize(d.joints), "joint") + ", " +
+               counted(std::ssize(d.shapes), "shape") + ")";
+      });
 }
 
 }  // namespace saltus::bindings

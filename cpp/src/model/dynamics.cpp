@@ -5,8 +5,6 @@
 namespace saltus {
 namespace {
 
-using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
 /// An argument with a row for each configuration, or one for all.
 struct Argument {
   const RowsRef& x;
@@ -66,33 +64,24 @@ Argument velocities(const Model& model, const RowsRef& x, const char* name) {
   return {x, model.n_v(), name, "velocities"};
 }
 
-MatX poses_of(const Model& model, const RowsRef& q, const std::vector<AttachedFrame>& list) {
+}  // namespace
+
+MatX all_poses(const Model& model, const RowsRef& q) {
   const Eigen::Index rows = count_rows({coordinates(model, q)});
-  MatX out(rows, static_cast<Eigen::Index>(16 * list.size()));
+  MatX out(rows, static_cast<Eigen::Index>(16 * model->links.size()));
   for_each_row(model, q, rows, [&](Eigen::Index row, const Frames& frames) {
-    double* to = out.row(row).data();
-    for (const AttachedFrame& frame : list) {
-      const Pose X_WF = frames.pose(frame);
-      Eigen::Map<RowMajor4> T(to);
-      T << X_WF.R, X_WF.p, 0, 0, 0, 1;
-      to += 16;
-    }
+    out.row(row) = frames.all_poses().reshaped<Eigen::RowMajor>().transpose();
   });
   return out;
 }
 
-}  // namespace
-
-MatX all_poses(const Model& model, const RowsRef& q) {
-  std::vector<AttachedFrame> list;
-  for (const Link& link : model->links) list.push_back({link.joint, link.X_JL});
-  return poses_of(model, q, list);
-}
-
 MatX all_shape_poses(const Model& model, const RowsRef& q) {
-  std::vector<AttachedFrame> list;
-  for (const PlacedShape& shape : model->shapes) list.push_back({shape.joint, shape.X_JG});
-  return poses_of(model, q, list);
+  const Eigen::Index rows = count_rows({coordinates(model, q)});
+  MatX out(rows, static_cast<Eigen::Index>(16 * model->shapes.size()));
+  for_each_row(model, q, rows, [&](Eigen::Index row, const Frames& frames) {
+    out.row(row) = frames.all_shape_poses().reshaped<Eigen::RowMajor>().transpose();
+  });
+  return out;
 }
 
 MatX jacobians(const Model& model, const RowsRef& q, int link, const std::optional<Vec3>& p_L) {

@@ -53,6 +53,33 @@ Pose Frames::pose(const AttachedFrame& frame) const {
   return X_WJ * frame.X_JF;
 }
 
+namespace {
+
+template <class Items, class FrameOf>
+MatX poses_of(const Frames& frames, const Items& items, const FrameOf& frame_of) {
+  MatX out(static_cast<Eigen::Index>(items.size()), 16);
+  double* to = out.data();
+  for (const auto& item : items) {
+    const Pose X = frames.pose(frame_of(item));
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(to);
+    T << X.R, X.p, 0, 0, 0, 1;
+    to += 16;
+  }
+  return out;
+}
+
+}  // namespace
+
+MatX Frames::all_poses() const {
+  return poses_of(*this, model_->links,
+                  [](const Link& link) { return AttachedFrame{link.joint, link.X_JL}; });
+}
+
+MatX Frames::all_shape_poses() const {
+  return poses_of(*this, model_->shapes,
+                  [](const PlacedShape& shape) { return AttachedFrame{shape.joint, shape.X_JG}; });
+}
+
 void Frames::jacobian(const AttachedFrame& frame, MatX& out) const {
   const Tree& tree = model_->tree;
   out.setZero(6, model_.n_v());

@@ -40,6 +40,9 @@ class SALTUS_EXPORT Frames {
   Pose pose(const AttachedFrame& frame) const;
   Pose pose(int link) const { return pose(link_frame(model_, link)); }
   Pose shape_pose(int shape) const { return pose(shape_frame(model_, shape)); }
+  /// Homogeneous matrices of all links (links, 16) and shapes (shapes, 16), each row by row.
+  MatX all_poses() const;
+  MatX all_shape_poses() const;
 
   /// J (6, n_v) of a frame's origin; out is resized where it must be.
   void jacobian(const AttachedFrame& frame, MatX& out) const;
