@@ -126,6 +126,7 @@ set(SALTUS_SOURCES
   # rollout
   cpp/src/rollout/batch.cpp
   cpp/src/rollout/batch_trajectory.cpp
+  cpp/src/rollout/from_states.cpp
   cpp/src/rollout/recorder.cpp
   cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp

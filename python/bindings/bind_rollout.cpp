@@ -106,6 +106,16 @@ void bind_trajectory(py::module_& m) {
              return T{model, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0, false};
            }),
            "Of no rows; `simulate` writes to it.", py::arg("model"))
+      .def_static(
+          "from_states",
+          [](const Model& model, const VecX& t, const MatX& q, const MatX& rows, bool momenta,
+             double h) {
+            const py::gil_scoped_release release;
+            return from_states(model, t, q, rows, momenta ? RowsOf::momenta : RowsOf::velocities,
+                               h);
+          },
+          "A run of given rows: `rows` are velocities or `momenta`.", py::arg("model"),
+          py::arg("t"), py::arg("q"), py::arg("rows"), py::arg("momenta"), py::arg("h"))
       .def_readonly("model", &T::model)
       .def_readonly("options", &T::options)
       .def_readonly("t", &T::t, "[s] shape (rows,)")

@@ -18,6 +18,8 @@ from saltus._core import (
     AdjacentLinks,
     BodyInertia,
     Box,
+    BuilderJoint,
+    BuilderLink,
     Capsule,
     ContactImpulse,
     ContactProperties,
@@ -26,6 +28,7 @@ from saltus._core import (
     Cylinder,
     Ellipsoid,
     Energies,
+    Frames,
     FrictionOutcome,
     Gap,
     Gaps,
@@ -80,6 +83,7 @@ from saltus._core import (
 )
 from saltus.paths import cmake_dir, urdf_dir
 from saltus.records.impacts import impact_table
+from saltus.records.models import model_tree
 from saltus.runs.batch import simulate_batch
 from saltus.runs.batch_trajectory import BatchTrajectory
 from saltus.runs.simulate import StepWarning, simulate
@@ -94,6 +98,8 @@ __all__ = [
     "BatchTrajectory",
     "BodyInertia",
     "Box",
+    "BuilderJoint",
+    "BuilderLink",
     "Capsule",
     "ContactImpulse",
     "ContactProperties",
@@ -102,6 +108,7 @@ __all__ = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "Frames",
     "FrictionOutcome",
     "Gap",
     "Gaps",
@@ -151,6 +158,7 @@ __all__ = [
     "impact_table",
     "load",
     "load_urdf",
+    "model_tree",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",

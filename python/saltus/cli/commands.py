@@ -117,7 +117,7 @@ def info(chosen: argparse.Namespace) -> int:
     _print_solvers(model)
     print(f"default contact: {_in_words(model.default_contact)}")
     _print_table(
-        "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}"] for link in model.links)
+        "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}" if link.mass else ""] for link in model.links)
     )
     _print_coordinates(model)
     _print_table(
@@ -201,9 +201,7 @@ def _kind(model: saltus.Model, pair: tuple[int, int]) -> str:
 
 
 def _print_pair_kinds(model: saltus.Model) -> None:
-    counts = model.pair_kinds()
-    table = sorted({(min(row), max(row)) for row in saltus.gap_table()})
-    rows = ([f"{a} ~ {b}", str(counts.get((a, b), 0))] for a, b in table)
+    rows = ([f"{a} ~ {b}", str(count)] for (a, b), count in sorted(model.pair_kinds().items()))
     _print_table("kinds of pairs", ["kind", "gaps in this model"], rows)
 
 
