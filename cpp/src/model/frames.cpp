@@ -1,6 +1,6 @@
 #include "saltus/model/frames.hpp"
 
-#include <limits>
+#include <cmath>
 
 #include "saltus/tree/coordinates.hpp"
 
@@ -27,8 +27,25 @@ Frames::Frames(const Model& model)
 
 Frames::Frames(const Model& model, const VecRef& q) : Frames(model) { set(q); }
 
+namespace {
+
+/// Nothing is to be said of this q, and nothing to be made of it.
+bool is_good(const Tree& tree, const VecRef& q) {
+  if (q.size() != tree.n_q || !q.allFinite()) return false;
+  for (const Ball& ball : tree.balls) {
+    if (std::abs(q.segment<4>(ball.coordinate).squaredNorm() - 1) > 1e-15) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 void Frames::set(const VecRef& q, const std::string& what) {
-  q_ = model_.checked_q(q, what);
+  if (is_good(model_->tree, q)) {
+    q_ = q;  // does not allocate
+  } else {
+    q_ = model_.checked_q(q, what);
+  }
   set_coordinates(model_->tree, model_->packed, q_, w_);
   place(model_->packed, w_);
   summed_ = false;
