@@ -153,7 +153,12 @@ void bind_rollout(py::module_& m) {
   py::class_<Energies>(m, "Energies", energies_class_doc)
       .def_readonly("kinetic", &Energies::kinetic, "[J]")
       .def_readonly("potential", &Energies::potential, "[J]")
-      .def_readonly("shadow", &Energies::shadow, "[J] H - h^2 kappa / 24");
+      .def_readonly("shadow", &Energies::shadow, "[J] H - h^2 kappa / 24")
+      .def("__repr__", [](const Energies& e) {
+        const auto show = [](double x) { return py::repr(py::float_(x)).cast<std::string>(); };
+        return "Energies(kinetic=" + show(e.kinetic) + ", potential=" + show(e.potential) +
+               ", shadow=" + show(e.shadow) + ")";
+      });
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),

@@ -130,7 +130,7 @@ def test_a_loop_of_ones_own(arm):
         state = stepper.advance(state)
     end = saltus.energies(arm, state, 0.01)
     assert end.kinetic > 0.1
-    assert end.kinetic + end.potential == pytest.approx(start.potential, abs=0.02)
+    assert end.kinetic + end.potential == pytest.approx(start.potential, abs=0.05)
     assert stepper.report.residual < 1e-10
 
 
@@ -237,11 +237,12 @@ def test_centre_of_mass(arm):
     np.testing.assert_allclose(run.potential, 3 * 9.81 * path[:, 2], atol=1e-12)
 
 
-def test_random_valid_configurations(arm):
+def test_random_valid_configurations():
+    arm = saltus.load_urdf(ARM, floor=True)
     rng = np.random.default_rng(7)
     drawn = np.array([arm.random_configuration(rng) for _ in range(100)])
     assert np.abs(drawn[:, 0]).max() < 2.0  # within the limits
-    free = [q for q in drawn if (arm.gaps(q).phi > 0).all()]  # and hand and base apart
+    free = [q for q in drawn if (arm.gaps(q).phi > 0).all()]  # and the hand above the floor
     assert 10 < len(free) < 100
 
 
