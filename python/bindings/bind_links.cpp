@@ -1,5 +1,7 @@
 // Model floor: the links and joints of a model, as their author described them.
 #include "bindings.hpp"
+#include "model_builder_docs.hpp"
+#include "pickle.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -21,6 +23,16 @@ std::string name_of(JointType type) { return py::cast(type).attr("name").cast<st
 }  // namespace
 
 void bind_links(py::module_& m) {
+  py::class_<Mimic>(m, "Mimic", docs::mimic)
+      .def(py::init([](const std::string& joint, double multiplier, double offset) {
+             return Mimic{joint, multiplier, offset};
+           }),
+           py::arg("joint"), py::arg("multiplier") = 1.0, py::arg("offset") = 0.0)
+      .def_readonly("joint", &Mimic::joint)
+      .def_readonly("multiplier", &Mimic::multiplier)
+      .def_readonly("offset", &Mimic::offset, "[rad | m]")
+      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
+      .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
   py::class_<Link>(m, "Link", link_doc)
       .def_readonly("name", &Link::name)
       .def_readonly("index", &Link::index, "in the model's `links`")

@@ -107,17 +107,6 @@ void bind_materials(py::class_<ModelBuilder>& c) {
 
 /// What a builder's methods take.
 void bind_parts(py::module_& m) {
-  py::class_<Mimic>(m, "Mimic", docs::mimic)
-      .def(py::init([](const std::string& joint, double multiplier, double offset) {
-             return Mimic{joint, multiplier, offset};
-           }),
-           py::arg("joint"), py::arg("multiplier") = 1.0, py::arg("offset") = 0.0)
-      .def_readonly("joint", &Mimic::joint)
-      .def_readonly("multiplier", &Mimic::multiplier)
-      .def_readonly("offset", &Mimic::offset, "[rad | m]")
-      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
-      .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
-
   py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
       .value("excluded", AdjacentLinks::excluded)
       .value("watched", AdjacentLinks::watched)

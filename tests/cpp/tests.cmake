@@ -44,6 +44,7 @@ set(SALTUS_TEST_model
   model/test_assembly.cpp
   model/test_build_errors.cpp
   model/test_builder_errors.cpp
+  model/test_changes.cpp
   model/test_filter.cpp
   model/test_frames.cpp
   model/test_golden.cpp
