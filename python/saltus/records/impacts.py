@@ -98,4 +98,4 @@ def _printed(self: Impact) -> str:
 
 # Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
 Impact.__str__ = _printed  # type: ignore[method-assign]
-Impact._repr_html_ = _html  # type: ignore[attr-defined]
+Impact._repr_html_ = _html  # type: ignore[method-assign]

@@ -13,8 +13,8 @@ from saltus.records.tables import counted
 
 MOST_ROWS = 60  # of a tree that print makes; a cradle of 1000 balls has 2000 joints
 
-AXES = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}
-NAMED_AXES = AXES | {(-x, -y, -z): f"-{name}" for (x, y, z), name in AXES.items()}
+AXES: dict[tuple[float, ...], str] = {(1, 0, 0): "x", (0, 1, 0): "y", (0, 0, 1): "z"}
+AXES |= {(-1, 0, 0): "-x", (0, -1, 0): "-y", (0, 0, -1): "-z"}
 ALONG = {JointType.prismatic: "along", JointType.planar: "normal to"}  # others turn about it
 
 
@@ -107,7 +107,7 @@ def _axis(joint: JointInfo) -> str:
     if joint.axis is None:
         return ""
     x, y, z = (float(number) + 0.0 for number in joint.axis)
-    name = NAMED_AXES.get((x, y, z), f"({x:.3g}, {y:.3g}, {z:.3g})")
+    name = AXES.get((x, y, z), f"({x:.3g}, {y:.3g}, {z:.3g})")
     return f"{ALONG.get(joint.type, 'about')} {name}"
 
 
@@ -161,4 +161,4 @@ def _html(self: Model) -> str:
 
 # Of the compiled class itself, as impacts.py does.
 Model.__str__ = _printed  # type: ignore[method-assign]
-Model._repr_html_ = _html  # type: ignore[attr-defined]
+Model._repr_html_ = _html  # type: ignore[method-assign]
