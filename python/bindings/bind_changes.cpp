@@ -68,12 +68,12 @@ ModelBuilder
 struct BuilderLink {
   ModelBuilder* builder;
   std::string name;
-  const LinkSpec& spec() const { return builder->link(name); }
+  const LinkSpec& spec() const { return builder->link_spec(name); }
 };
 struct BuilderJoint {
   ModelBuilder* builder;
   std::string name;
-  const JointSpec& spec() const { return builder->joint(name); }
+  const JointSpec& spec() const { return builder->joint_spec(name); }
 };
 
 std::optional<std::string> material(const BuilderLink& link) {
@@ -143,13 +143,13 @@ void bind_changes(py::class_<ModelBuilder>& c, py::module_& m) {
   c.def(
        "link",
        [](ModelBuilder& builder, const std::string& name) {
-         return BuilderLink{&builder, builder.link(name).name};
+         return BuilderLink{&builder, builder.link_spec(name).name};
        },
        py::keep_alive<0, 1>(), builder_link_doc, py::arg("name"))
       .def(
           "joint",
           [](ModelBuilder& builder, const std::string& name) {
-            return BuilderJoint{&builder, builder.joint(name).name};
+            return BuilderJoint{&builder, builder.joint_spec(name).name};
           },
           py::keep_alive<0, 1>(), builder_joint_doc, py::arg("name"))
       .def_property_readonly("link_names",

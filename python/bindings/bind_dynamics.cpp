@@ -55,6 +55,12 @@ MatX unlocked(const F& f) {
 }
 
 int link_of(const Model& model, const NameOrLink& link) {
+  if (py::isinstance<py::str>(link)) {  // the lists of names below are slow
+    const auto name = py::cast<std::string>(link);
+    for (const Link& each : model->links) {
+      if (each.name == name) return each.index;
+    }
+  }
   return to_index(py::reinterpret_borrow<NameOrIndex>(link), names_of(model->links), "link");
 }
 

@@ -59,7 +59,13 @@ void bind_links(py::module_& m) {
           "Pose of the joint's frame (the child link's at displacement 0) in the parent's")
       .def_readonly("axis", &J::axis, "unit, in the joint's frame, shape (3,); None without one")
       .def_readonly("pitch", &J::pitch, "[m/rad] of a helical joint")
-      .def_readonly("mimic", &J::mimic, "Mimic: which joint it follows; None for all others")
+      .def_property_readonly(
+          "mimic",
+          [](const J& j) -> std::optional<Mimic> {
+            if (j.mimics.empty()) return {};
+            return Mimic{j.mimics, j.multiplier, j.offset};
+          },
+          "Mimic: which joint it follows; None for all others")
       .def_readonly("lower", &J::lower, "[rad | m] limit, -inf where there is none")
       .def_readonly("upper", &J::upper, "[rad | m] limit, inf where there is none")
       .def("__index__", [](const J& j) { return j.index; })

@@ -62,7 +62,11 @@ void Assembly::describe(const JointSpec& joint, JointInfo& info) const {
   info.X_PJ = joint.X_PJ;
   if (has_axis(joint.type)) info.axis = joint.axis.stableNormalized();
   info.pitch = joint.pitch;
-  info.mimic = joint.mimic;
+  if (joint.mimic) {
+    info.mimics = joint.mimic->joint;
+    info.multiplier = joint.mimic->multiplier;
+    info.offset = joint.mimic->offset;
+  }
   info.lower = joint.lower;
   info.upper = joint.upper;
 }

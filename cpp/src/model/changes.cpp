@@ -28,11 +28,11 @@ void check_name(const std::string& now, const std::string& element, const std::s
 
 }  // namespace
 
-const LinkSpec& ModelBuilder::link(const std::string& name) const {
+const LinkSpec& ModelBuilder::link_spec(const std::string& name) const {
   return named(d_.links, "link", name);
 }
 
-const JointSpec& ModelBuilder::joint(const std::string& name) const {
+const JointSpec& ModelBuilder::joint_spec(const std::string& name) const {
   return named(d_.joints, "joint", name);
 }
 

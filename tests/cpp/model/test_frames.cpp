@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Eigenvalues>
 
 #include "kit/ask.hpp"
 #include "kit/builders.hpp"

@@ -19,6 +19,13 @@ struct LinkSpec {
   BodyInertia inertia = {};  ///< in the link's frame; not used of what cannot move
 };
 
+/// This joint's displacement is `multiplier * (displacement of joint) + offset`.
+struct Mimic {
+  std::string joint;
+  double multiplier = 1;
+  double offset = 0;
+};
+
 struct JointSpec {
   std::string name;
   JointType type = JointType::revolute;

@@ -30,9 +30,10 @@ enum class JointType {
 /// A rigid link: a frame that moves with a joint frame.
 struct Link {
   std::string name;
-  int joint = -1;            ///< index in the tree; -1: fixed to the world
-  Pose X_JL;                 ///< the link's frame in the joint's frame
-  double mass = 0;           ///< [kg] own mass
+  int joint = -1;   ///< index in the tree; -1: fixed to the world
+  Pose X_JL;        ///< the link's frame in the joint's frame
+  double mass = 0;  ///< [kg] own mass
+
   BodyInertia inertia = {};  ///< own, in the link's frame
   int index = 0;             ///< in the model's links
 };
@@ -51,26 +52,21 @@ struct Coordinate {
   double damping = 0, friction = 0;  ///< [N m s/rad | N s/m], [N m | N]
 };
 
-/// This joint's displacement is `multiplier * (displacement of joint) + offset`.
-struct Mimic {
-  std::string joint;
-  double multiplier = 1;
-  double offset = 0;
-};
-
 /// A joint as its author named it, after multi-coordinate joints are composed.
 struct JointInfo {
   std::string name;
   JointType type;
-  std::string parent, child;      ///< links
-  std::vector<int> frames;        ///< joints of the tree, outermost last; none where fixed
-  std::vector<int> coordinates;   ///< indices in q of those that move it
-  std::vector<int> velocities;    ///< likewise in v and p
-  int index = 0;                  ///< in the model's joints
-  Pose X_PJ = {};                 ///< the joint's frame in the parent link's, at displacement 0
-  std::optional<Vec3> axis = {};  ///< unit, in the joint's frame; where it has one
-  double pitch = 0;               ///< [m/rad] of a helical one
-  std::optional<Mimic> mimic = {};
+  std::string parent, child;     ///< links
+  std::vector<int> frames;       ///< joints of the tree, outermost last; none where fixed
+  std::vector<int> coordinates;  ///< indices in q of those that move it
+  std::vector<int> velocities;   ///< likewise in v and p
+
+  int index = 0;                      ///< in the model's joints
+  Pose X_PJ = {};                     ///< the joint's frame in the parent link's, at displacement 0
+  std::optional<Vec3> axis = {};      ///< unit, in the joint's frame; where it has one
+  double pitch = 0;                   ///< [m/rad] of a helical one
+  std::string mimics = {};            ///< the joint that it follows; "" of all others
+  double multiplier = 1, offset = 0;  ///< of one that follows, as in Mimic
   double lower = 0, upper = 0;  ///< [rad | m] as its author gave them; infinite where there is none
 };
 
@@ -156,14 +152,15 @@ class SALTUS_EXPORT Model {
 
   int coordinate(const std::string& name) const;  ///< index, or ModelError with the names there are
   int velocity_index(const std::string& name) const;  ///< likewise, in v and p
-  int link(const std::string& name) const;   ///< index, or ModelError with the names there are
-  int joint(const std::string& name) const;  ///< likewise, in the joints that have names
-  Pair pair(int pair) const;                 ///< what the pair of this number is of
-  std::string pair_name(int pair) const;     ///< "a ~ b", "a[part] ~ b"
+  int link(const std::string& name) const;  ///< index, or ModelError with the names there are
+  Pair pair(int pair) const;                ///< what the pair of this number is of
+  std::string pair_name(int pair) const;    ///< "a ~ b", "a[part] ~ b"
   ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
   std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees
+
+  int joint(const std::string& name) const;  ///< index in the joints, or ModelError with the names
 
   /// A copy of this model without any pair: bodies pass through each other.
   Model without_collisions() const;

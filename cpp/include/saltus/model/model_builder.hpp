@@ -97,8 +97,8 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_warning(std::string text);
 
   /// What was said of a link or joint, or ModelError with the names there are.
-  const LinkSpec& link(const std::string& name) const;
-  const JointSpec& joint(const std::string& name) const;
+  const LinkSpec& link_spec(const std::string& name) const;
+  const JointSpec& joint_spec(const std::string& name) const;
   /// Says it anew: `change` gets a copy, which is checked as by add_link or add_joint, then kept.
   /// The text that a model was read from is forgotten, since it says something else.
   /// @throws ModelError where the name changes, too.
