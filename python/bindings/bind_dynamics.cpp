@@ -4,6 +4,28 @@
 #include "saltus/model/dynamics.hpp"
 
 namespace saltus::bindings {
+
+/// What a user gives for a point, or for one a row: three numbers, or nothing.
+struct Points {
+  py::object value;
+};
+
+}  // namespace saltus::bindings
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<saltus::bindings::Points> {
+  PYBIND11_TYPE_CASTER(saltus::bindings::Points, const_name("numpy.typing.ArrayLike | None"));
+  bool load(handle source, bool /*convert*/) {
+    value.value = reinterpret_borrow<object>(source);
+    return static_cast<bool>(source);
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace saltus::bindings {
 namespace {
 
 using Shape = std::vector<py::ssize_t>;
@@ -64,7 +86,8 @@ int link_of(const Model& model, const NameOrLink& link) {
   return to_index(py::reinterpret_borrow<NameOrIndex>(link), names_of(model->links), "link");
 }
 
-std::optional<Vec3> point_of(const py::object& point) {
+std::optional<Vec3> point_of(const Points& given) {
+  const py::object& point = given.value;
   if (point.is_none()) return {};
   const auto x = py::array_t<double, py::array::forcecast>::ensure(point);
   if (x && x.ndim() == 1 && x.size() == 3) {
@@ -75,7 +98,8 @@ std::optional<Vec3> point_of(const py::object& point) {
                    "; it has three finite numbers [m]");
 }
 
-Rows about_of(const py::object& about) {
+Rows about_of(const Points& given) {
+  const py::object& about = given.value;
   if (about.is_none()) return {MatX::Zero(1, 3), false};
   if (auto rows = rows_of(about, "about", 3)) return {*std::move(rows), true};
   const auto x = py::array_t<double, py::array::forcecast>::ensure(about);
@@ -87,7 +111,7 @@ Rows about_of(const py::object& about) {
 }
 
 py::array_t<double> jacobian(const Model& model, const Coordinates& q, const NameOrLink& link,
-                             const py::object& point) {
+                             const Points& point) {
   const Rows at = q_of(q, model);
   const auto p = point_of(point);
   const int index = link_of(model, link);
@@ -112,7 +136,7 @@ py::array_t<double> of_motion(const Model& model, const Coordinates& q, const Ve
 }
 
 py::array_t<double> momentum(const Model& model, const Coordinates& q, const Velocities& v,
-                             const py::object& about) {
+                             const Points& about) {
   const Rows at = q_of(q, model), rate = v_of(v, model), point = about_of(about);
   return reshaped(unlocked([&] { return momenta(model, at.x, rate.x, point.x); }),
                   at.many || rate.many || point.many, {6});
@@ -171,13 +195,13 @@ void bind_rows(py::class_<Model>& c) {
           docs::model_at, py::arg("q") = py::none());
 }
 
-MatX frames_jacobian(const Frames& f, const NameOrLink& link, const py::object& point) {
+MatX frames_jacobian(const Frames& f, const NameOrLink& link, const Points& point) {
   const auto p = point_of(point);
   const int index = link_of(f.model(), link);
   return p ? f.jacobian(index, *p) : f.jacobian(index);
 }
 
-Vec6 frames_momentum(Frames& f, const Velocities& v, const py::object& about) {
+Vec6 frames_momentum(Frames& f, const Velocities& v, const Points& about) {
   const auto p = point_of(about);
   Vec6 out = f.momentum(to_vector(v, f.model()));
   if (p) out.head<3>() -= p->cross(Vec3(linear(out)));

@@ -16,16 +16,12 @@ Vec6 six(const double* x) {
 
 }  // namespace
 
-Frames::Frames(const Model& model)
-    : model_(model),
-      q_(model.neutral()),
-      w_(model->packed),
-      forces_(model->packed),
-      zero_(VecX::Zero(model.n_v())) {
-  set(q_);
-}
+Frames::Frames(const Model& model) : Frames(model, model.neutral()) {}
 
-Frames::Frames(const Model& model, const VecRef& q) : Frames(model) { set(q); }
+Frames::Frames(const Model& model, const VecRef& q)
+    : model_(model), w_(model->packed), forces_(model->packed), zero_(VecX::Zero(model.n_v())) {
+  set(q);
+}
 
 namespace {
 
