@@ -16,6 +16,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp
   cpp/src/lagrangian/packed/own_terms.cpp
+  cpp/src/lagrangian/packed/newton_euler.cpp
   cpp/src/lagrangian/packed/pack.cpp
   cpp/src/lagrangian/packed/passes.cpp
   cpp/src/lagrangian/packed/place.cpp
@@ -65,10 +66,13 @@ set(SALTUS_SOURCES
   cpp/src/collision/chord/chord_path.cpp
   # model
   cpp/src/model/assembly.cpp
+  cpp/src/model/changes.cpp
   cpp/src/model/configuration.cpp
+  cpp/src/model/dynamics.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/force_verbs.cpp
   cpp/src/model/joint_forces.cpp
+  cpp/src/model/frames.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
@@ -130,6 +134,7 @@ set(SALTUS_SOURCES
   cpp/src/rollout/control.cpp
   cpp/src/rollout/batch.cpp
   cpp/src/rollout/batch_trajectory.cpp
+  cpp/src/rollout/from_states.cpp
   cpp/src/rollout/recorder.cpp
   cpp/src/rollout/run.cpp
   cpp/src/rollout/simulate.cpp
@@ -168,6 +173,9 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_collision.cpp
   python/bindings/bind_configuration.cpp
   # model
+  python/bindings/bind_changes.cpp
+  python/bindings/bind_dynamics.cpp
+  python/bindings/bind_links.cpp
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_forces.cpp

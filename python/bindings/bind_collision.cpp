@@ -196,6 +196,7 @@ void bind_collision(py::module_& m) {
                     "the link's name, \"#k\" added where a link has several")
       .def_readonly("shape", &PlacedShape::shape, "one of the classes of `Shape`")
       .def_readonly("link", &PlacedShape::link, "index of its link in the model's `links`")
+      .def_readonly("X_LG", &PlacedShape::X_LG, "Pose of its frame in its link's")
       .def("__repr__", [](const PlacedShape& s) {
         return "PlacedShape('" + s.name + "', " + py::repr(py::cast(s.shape)).cast<std::string>() +
                ")";

@@ -49,10 +49,6 @@ void bind_parts(py::module_& m) {
       .value("floating", JointType::floating)
       .value("spherical", JointType::spherical)
       .finalize();
-  py::class_<Link>(m, "Link", "A rigid link of a model.")
-      .def_readonly("name", &Link::name)
-      .def_readonly("mass", &Link::mass, "[kg] its own, without links that are fixed to it")
-      .def("__repr__", [](const Link& l) { return "Link('" + l.name + "')"; });
   py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
       .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
       .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
@@ -69,14 +65,6 @@ void bind_parts(py::module_& m) {
       .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
       .def_readonly("friction", &Coordinate::friction, "[N m | N]")
       .def("__repr__", [](const Coordinate& c) { return "Coordinate('" + c.name + "')"; });
-  py::class_<JointInfo>(m, "JointInfo", "A joint of a model, as its author named it.")
-      .def_readonly("name", &JointInfo::name)
-      .def_readonly("type", &JointInfo::type)
-      .def_readonly("parent", &JointInfo::parent, "name of the parent link")
-      .def_readonly("child", &JointInfo::child, "name of the child link")
-      .def_readonly("coordinates", &JointInfo::coordinates, "indices in q of those that move it")
-      .def_readonly("velocities", &JointInfo::velocities, "indices in v and p, likewise")
-      .def("__repr__", [](const JointInfo& j) { return "JointInfo('" + j.name + "')"; });
 }
 
 void bind_tree_solution(py::module_& m) {
@@ -171,8 +159,12 @@ void bind_lists(py::class_<Model>& c) {
            "Index of a coordinate in q; ModelError with the names there are.")
       .def("velocity_index", &Model::velocity_index, py::arg("name"),
            "Index of a velocity in v and p; ModelError with the names there are.")
-      .def("link", &Model::link, py::arg("name"),
-           "Index of a link; ModelError with the names there are.")
+      .def(
+          "link", [](const Model& m, const std::string& name) { return m->links[m.link(name)]; },
+          py::arg("name"), "The Link of this name; ModelError with the names there are.")
+      .def(
+          "joint", [](const Model& m, const std::string& name) { return m->joints[m.joint(name)]; },
+          py::arg("name"), "The JointInfo of this name; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
            "A copy without any pair: bodies pass through each other.")
       .def("__repr__", [](const Model& m) {
@@ -244,6 +236,7 @@ void bind_model(py::module_& m) {
   bind_joint_effects(m);
   bind_state(m);
   bind_parts(m);
+  bind_links(m);
   bind_tree_solution(m);
   bind_gaps(m);
   py::class_<Model> c(m, "Model", docs::model);
@@ -283,8 +276,9 @@ void bind_model(py::module_& m) {
           "[J] of gravity, zero at the world's origin.", py::arg("q"))
       .def(
           "pose",
-          [](const Model& model, const Coordinates& q, const NameOrIndex& link) {
-            return model.X_WL(to_vector(q, model), to_index(link, names_of(model->links), "link"));
+          [](const Model& model, const Coordinates& q, const NameOrLink& link) {
+            const auto item = py::reinterpret_borrow<NameOrIndex>(link);
+            return model.X_WL(to_vector(q, model), to_index(item, names_of(model->links), "link"));
           },
           docs::model_pose, py::arg("q"), py::arg("link"));
 }

@@ -107,17 +107,6 @@ void bind_materials(py::class_<ModelBuilder>& c) {
 
 /// What a builder's methods take.
 void bind_parts(py::module_& m) {
-  py::class_<Mimic>(m, "Mimic", docs::mimic)
-      .def(py::init([](const std::string& joint, double multiplier, double offset) {
-             return Mimic{joint, multiplier, offset};
-           }),
-           py::arg("joint"), py::arg("multiplier") = 1.0, py::arg("offset") = 0.0)
-      .def_readonly("joint", &Mimic::joint)
-      .def_readonly("multiplier", &Mimic::multiplier)
-      .def_readonly("offset", &Mimic::offset, "[rad | m]")
-      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
-      .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
-
   py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
       .value("excluded", AdjacentLinks::excluded)
       .value("watched", AdjacentLinks::watched)
@@ -138,6 +127,7 @@ void bind_model_builder(py::module_& m) {
   bind_scenes(c);
   bind_actuators(c);
   bind_joint_forces(c);
+  bind_changes(c, m);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",
@@ -174,7 +164,12 @@ void bind_model_builder(py::module_& m) {
       .def_property_readonly("warnings", &ModelBuilder::warnings)
       .def("check", &ModelBuilder::check, "The checks of `build` alone; raises ModelError.")
       .def("build", &build, docs::build)
-      .def("__repr__", [](const ModelBuilder&) { return "ModelBuilder(...)"; });
+      .def("__repr__", [](const ModelBuilder& builder) {
+        const ModelDescription& d = builder.description();
+        return "ModelBuilder('" + d.name + "', " + counted(std::ssize(d.links), "link") + ", " +
+               counted(std::ssize(d.joints), "joint") + ", " +
+               counted(std::ssize(d.shapes), "shape") + ")";
+      });
 }
 
 }  // namespace saltus::bindings

@@ -41,23 +41,24 @@ constexpr auto shape_poses_doc = R"(As `poses`, for the frame of a shape: its na
 constexpr auto shape_velocities_doc =
     R"(As `velocities`, for the frame of a shape: its name or index.)";
 
-AttachedFrame frame_of_link(const Model& model, const NameOrIndex& link) {
-  return link_frame(model, to_index(link, names_of(model->links), "link"));
+AttachedFrame frame_of_link(const Model& model, const NameOrLink& link) {
+  const auto item = py::reinterpret_borrow<NameOrIndex>(link);
+  return link_frame(model, to_index(item, names_of(model->links), "link"));
 }
 
 AttachedFrame frame_of_shape(const Model& model, const NameOrIndex& shape) {
   return shape_frame(model, to_index(shape, names_of(model->shapes), "shape"));
 }
 
-template <auto frame>
-py::array_t<double> many_poses(const Model& model, const MatX& q, const NameOrIndex& item) {
+template <auto frame, class Item>
+py::array_t<double> many_poses(const Model& model, const MatX& q, const Item& item) {
   const auto rows = static_cast<py::ssize_t>(q.rows());
   const py::object flat = py::cast(poses(model, frame(model, item), q));
   return flat.attr("reshape")(rows, 4, 4);
 }
 
-template <auto frame>
-MatX many_velocities(const Model& model, const MatX& q, const MatX& v, const NameOrIndex& item) {
+template <auto frame, class Item>
+MatX many_velocities(const Model& model, const MatX& q, const MatX& v, const Item& item) {
   return velocities(model, frame(model, item), q, v);
 }
 
@@ -66,13 +67,13 @@ MatX many_velocities(const Model& model, const MatX& q, const MatX& v, const Nam
 void bind_motion(py::module_& m) {
   const py::object model = m.attr("Model");
   py::class_<Model> c(model);
-  c.def("poses", &many_poses<frame_of_link>, poses_doc, py::arg("q"), py::arg("link"))
-      .def("velocities", &many_velocities<frame_of_link>, velocities_doc, py::arg("q"),
+  c.def("poses", &many_poses<frame_of_link, NameOrLink>, poses_doc, py::arg("q"), py::arg("link"))
+      .def("velocities", &many_velocities<frame_of_link, NameOrLink>, velocities_doc, py::arg("q"),
            py::arg("v"), py::arg("link"))
-      .def("shape_poses", &many_poses<frame_of_shape>, shape_poses_doc, py::arg("q"),
+      .def("shape_poses", &many_poses<frame_of_shape, NameOrIndex>, shape_poses_doc, py::arg("q"),
            py::arg("shape"))
-      .def("shape_velocities", &many_velocities<frame_of_shape>, shape_velocities_doc, py::arg("q"),
-           py::arg("v"), py::arg("shape"));
+      .def("shape_velocities", &many_velocities<frame_of_shape, NameOrIndex>, shape_velocities_doc,
+           py::arg("q"), py::arg("v"), py::arg("shape"));
 }
 
 }  // namespace saltus::bindings

@@ -113,6 +113,16 @@ void bind_trajectory(py::module_& m) {
   py::class_<T>(m, "Trajectory", trajectory_doc)
       .def(py::init([](const Model& model) { return T{.model = model}; }),
            "Of no rows; `simulate` writes to it.", py::arg("model"))
+      .def_static(
+          "from_states",
+          [](const Model& model, const VecX& t, const MatX& q, const MatX& rows, bool momenta,
+             double h) {
+            const py::gil_scoped_release release;
+            return from_states(model, t, q, rows, momenta ? RowsOf::momenta : RowsOf::velocities,
+                               h);
+          },
+          "A run of given rows: `rows` are velocities or `momenta`.", py::arg("model"),
+          py::arg("t"), py::arg("q"), py::arg("rows"), py::arg("momenta"), py::arg("h"))
       .def_readonly("model", &T::model)
       .def_readonly("options", &T::options)
       .def_readonly("t", &T::t, "[s] shape (rows,)")
@@ -153,7 +163,12 @@ void bind_rollout(py::module_& m) {
   py::class_<Energies>(m, "Energies", energies_class_doc)
       .def_readonly("kinetic", &Energies::kinetic, "[J]")
       .def_readonly("potential", &Energies::potential, "[J]")
-      .def_readonly("shadow", &Energies::shadow, "[J] H - h^2 kappa / 24");
+      .def_readonly("shadow", &Energies::shadow, "[J] H - h^2 kappa / 24")
+      .def("__repr__", [](const Energies& e) {
+        const auto show = [](double x) { return py::repr(py::float_(x)).cast<std::string>(); };
+        return "Energies(kinetic=" + show(e.kinetic) + ", potential=" + show(e.potential) +
+               ", shadow=" + show(e.shadow) + ")";
+      });
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),

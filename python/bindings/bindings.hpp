@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/model/model_builder.hpp"
 #include "saltus/variational/options.hpp"
 #include "saltus/variational/report.hpp"
 
@@ -30,11 +31,14 @@ void bind_lagrangian(py::module_& m);
 void bind_collision(py::module_& m);
 void bind_model(py::module_& m);
 void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
+void bind_links(py::module_& m);                 ///< called by bind_model
+void bind_dynamics(py::module_& m);
 void bind_model_builder(py::module_& m);
 void bind_joint_effects(py::module_& m);              ///< called by bind_model
 void bind_model_forces(py::class_<Model>& c);         ///< likewise
 void bind_actuators(py::class_<ModelBuilder>& c);     ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);  ///< likewise
+void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
@@ -111,6 +115,9 @@ StepOptions make_step_options(double h, const LawChoice& law, bool collisions,
 
 /// How links and shapes are named.
 using NameOrIndex = py::typing::Union<py::str, py::int_>;
+
+/// How links are named: also by the Link itself.
+using NameOrLink = py::typing::Union<py::str, py::int_, Link>;
 
 /// Index of a link or shape that is given by name or by index.
 int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, m) {
   bind_model(m);
   bind_model_builder(m);
   bind_motion(m);
+  bind_dynamics(m);
   bind_urdf(m);
   bind_variational(m);
   bind_contact_space(m);

@@ -18,6 +18,8 @@ from saltus._core import (
     AdjacentLinks,
     BodyInertia,
     Box,
+    BuilderJoint,
+    BuilderLink,
     Capsule,
     ContactImpulse,
     ContactProperties,
@@ -26,6 +28,7 @@ from saltus._core import (
     Cylinder,
     Ellipsoid,
     Energies,
+    Frames,
     FrictionOutcome,
     Gap,
     Gaps,
@@ -82,6 +85,7 @@ from saltus._core import (
 )
 from saltus.paths import cmake_dir, urdf_dir
 from saltus.records.impacts import impact_table
+from saltus.records.models import model_tree
 from saltus.runs.batch import simulate_batch
 from saltus.runs.batch_trajectory import BatchTrajectory
 from saltus.runs.moment import Moment
@@ -97,6 +101,8 @@ __all__ = [
     "BatchTrajectory",
     "BodyInertia",
     "Box",
+    "BuilderJoint",
+    "BuilderLink",
     "Capsule",
     "ContactImpulse",
     "ContactProperties",
@@ -105,6 +111,7 @@ __all__ = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "Frames",
     "FrictionOutcome",
     "Gap",
     "Gaps",
@@ -157,6 +164,7 @@ __all__ = [
     "impact_table",
     "load",
     "load_urdf",
+    "model_tree",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",

@@ -15,6 +15,8 @@ __all__: list[str] = [
     "BatchTrajectory",
     "BodyInertia",
     "Box",
+    "BuilderJoint",
+    "BuilderLink",
     "Capsule",
     "ContactImpulse",
     "ContactProperties",
@@ -23,6 +25,7 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "Frames",
     "FrictionOutcome",
     "Gap",
     "Gaps",
@@ -506,6 +509,11 @@ class PlacedShape:
     """
     def __repr__(self) -> str: ...
     @property
+    def X_LG(self) -> Pose:
+        """
+        Pose of its frame in its link's
+        """
+    @property
     def link(self) -> int:
         """
         index of its link in the model's `links`
@@ -643,19 +651,6 @@ class JointType(enum.Enum):
     revolute = ...
     spherical = ...
 
-class Link:
-    """
-    A rigid link of a model.
-    """
-    def __repr__(self) -> str: ...
-    @property
-    def mass(self) -> float:
-        """
-        [kg] its own, without links that are fixed to it
-        """
-    @property
-    def name(self) -> str: ...
-
 class Coordinate:
     """
     A number of q and what the model's file says of it.
@@ -709,11 +704,81 @@ class Coordinate:
         [rad/s | m/s] limit, inf where none
         """
 
+class Mimic:
+    """
+    This joint's displacement is `multiplier * (displacement of joint) + offset`.
+
+    Parameters
+    ----------
+    joint : str
+        Name of the joint to follow; both have one coordinate.
+    multiplier : float
+    offset : float
+        [rad | m]
+    """
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        joint: str,
+        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def joint(self) -> str: ...
+    @property
+    def multiplier(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """
+        [rad | m]
+        """
+
+class Link:
+    """
+    A rigid link of a model.
+
+    It stands for its index wherever one is taken.
+    """
+    def __index__(self) -> int: ...
+    def __repr__(self) -> str: ...
+    @property
+    def index(self) -> int:
+        """
+        in the model's `links`
+        """
+    @property
+    def inertia(self) -> BodyInertia:
+        """
+        BodyInertia: mass [kg], centre of mass c_J [m] and inertia I_J [kg m^2] about it, in the link's frame
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg] its own, without links that are fixed to it
+        """
+    @property
+    def name(self) -> str: ...
+
 class JointInfo:
     """
-    A joint of a model, as its author named it.
+    A joint of a model, as its author described it.
+
+    It stands for its index in `joints` wherever one is taken.
     """
+    def __index__(self) -> int: ...
     def __repr__(self) -> str: ...
+    @property
+    def X_PJ(self) -> Pose:
+        """
+        Pose of the joint's frame (the child link's at displacement 0) in the parent's
+        """
+    @property
+    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
+        """
+        unit, in the joint's frame, shape (3,); None without one
+        """
     @property
     def child(self) -> str:
         """
@@ -725,6 +790,21 @@ class JointInfo:
         indices in q of those that move it
         """
     @property
+    def index(self) -> int:
+        """
+        in the model's `joints`
+        """
+    @property
+    def lower(self) -> float:
+        """
+        [rad | m] limit, -inf where there is none
+        """
+    @property
+    def mimic(self) -> Mimic | None:
+        """
+        Mimic: which joint it follows; None for all others
+        """
+    @property
     def name(self) -> str: ...
     @property
     def parent(self) -> str:
@@ -732,7 +812,17 @@ class JointInfo:
         name of the parent link
         """
     @property
+    def pitch(self) -> float:
+        """
+        [m/rad] of a helical joint
+        """
+    @property
     def type(self) -> JointType: ...
+    @property
+    def upper(self) -> float:
+        """
+        [rad | m] limit, inf where there is none
+        """
     @property
     def velocities(self) -> list[int]:
         """
@@ -827,6 +917,131 @@ class Model:
     def __getstate__(self) -> tuple[tuple, bool]: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
+    def __str__(self) -> str: ...
+    def _repr_html_(self) -> str: ...
+    def accelerations(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Accelerations: forward dynamics.
+
+        Solves M(q) a + c(q, v) = forces + gravity_forces(q), c the forces of motion alone. Contacts,
+        limits, dampers and motors do not act. O(n) for deep trees.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s] None: at rest.
+        forces : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values, optional
+            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [rad/s^2 | m/s^2] the rates of v.
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        StepError
+            Where the mass matrix is singular.
+        """
+    def all_poses(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of all links, one pass a row.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (links, 4, 4) or (rows, links, 4, 4)
+            Homogeneous matrices, in the order of `links`.
+        """
+    def all_shape_poses(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of all shapes, one pass a row.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (shapes, 4, 4) or (rows, shapes, 4, 4)
+            Homogeneous matrices, in the order of `shapes`.
+        """
+    def at(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None
+    ) -> Frames:
+        """
+        The kinematics at one configuration, once: poses, Jacobians, dynamics.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values, optional
+            [rad | m]; coordinates that are not named are as in `neutral`.
+
+        Returns
+        -------
+        Frames
+
+        Examples
+        --------
+        >>> import saltus
+        >>> model = saltus.load_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> frames = model.at({"swing_0": 0.3})
+        >>> frames.jacobian("ball_0").shape
+        (6, 3)
+        """
+    def builder(self) -> ModelBuilder:
+        """
+        A new builder that holds what this model was built of.
+
+        To change a mass, a limit, a material, or to add to it, and build another model.
+
+        Returns
+        -------
+        ModelBuilder
+        """
+    def centre_of_mass(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Centre of mass of all that moves, in the world.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (3,) or (rows, 3)
+            [m]
+
+        Raises
+        ------
+        ModelError
+            Also where nothing that moves has mass.
+        """
     def contact_properties(
         self, pair: typing.SupportsInt | typing.SupportsIndex
     ) -> ContactProperties:
@@ -880,6 +1095,24 @@ class Model:
         -------
         Gaps
         """
+    def gravity_forces(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        What gravity does to the coordinates, -dV/dq.
+
+        Holding the model still takes the opposite, `inverse_dynamics(q, None, None)`.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [N m | N]
+        """
     def integrate(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
@@ -906,6 +1139,78 @@ class Model:
         ------
         ModelError
             As `state`.
+        """
+    def inverse_dynamics(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces that make given accelerations: inverse dynamics.
+
+        M(q) a + c(q, v) - gravity_forces(q), by the recursion of Newton and Euler, O(n). At rest and
+        without acceleration they are what holds the model up.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s] None: at rest.
+        a : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s^2 | m/s^2] the rates of v. None: none.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        """
+    def jacobian(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        link: str | int | Link,
+        point: typing.Any = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Jacobian J of a link: J v is its velocity.
+
+        Rows are [angular; linear] in world axes: the angular velocity [rad/s] of the link and the velocity
+        [m/s] of its frame's origin. With a point there are three rows, the velocity of that point. Columns
+        are by velocity; of free and ball joints v is in the parent's axes, so that a free body's first six
+        columns are those of its own velocity and angular velocity. J^T takes a wrench [moment about that
+        point; force] to forces on the coordinates.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        link : str, int or Link
+        point : array_like, shape (3,), optional
+            [m] in the link's frame.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
+            Of many rows (rows, 6, n_v) or (rows, 3, n_v).
+
+        Raises
+        ------
+        ModelError
+            On an unknown link, a wrong shape, or a value that is not finite.
+        """
+    def joint(self, name: str) -> JointInfo:
+        """
+        The JointInfo of this name; ModelError with the names there are.
         """
     def kinetic_energy(self, state: State) -> float:
         """
@@ -939,9 +1244,9 @@ class Model:
         ModelError
             On an unknown name, a wrong shape, or a value that is not finite.
         """
-    def link(self, name: str) -> int:
+    def link(self, name: str) -> Link:
         """
-        Index of a link; ModelError with the names there are.
+        The Link of this name; ModelError with the names there are.
         """
     def mass_matrix(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -957,6 +1262,31 @@ class Model:
         Returns
         -------
         numpy.ndarray, shape (n_v, n_v)
+        """
+    def momentum(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        *,
+        about: typing.Any = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Momentum of all that moves, [angular; linear] in world axes.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s]
+        about : array_like, shape (3,) or (rows, 3), optional
+            [m] point in the world that the angular momentum is about; None: the world's origin. With
+            `centre_of_mass(q)` it is the centroidal momentum.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6,) or (rows, 6)
+            Angular momentum [kg m^2/s], momentum [kg m/s].
         """
     def neutral(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
@@ -1000,7 +1330,7 @@ class Model:
     def pose(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        link: str | int,
+        link: str | int | Link,
     ) -> Pose:
         """
         Pose of a link in the world; `Model::X_WL` in C++.
@@ -1225,37 +1555,6 @@ class Model:
     def warnings(self) -> list[str]:
         """
         what was understood but is not used
-        """
-
-class Mimic:
-    """
-    This joint's displacement is `multiplier * (displacement of joint) + offset`.
-
-    Parameters
-    ----------
-    joint : str
-        Name of the joint to follow; both have one coordinate.
-    multiplier : float
-    offset : float
-        [rad | m]
-    """
-    def __getstate__(self) -> tuple: ...
-    def __init__(
-        self,
-        joint: str,
-        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-    ) -> None: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, arg0: tuple) -> None: ...
-    @property
-    def joint(self) -> str: ...
-    @property
-    def multiplier(self) -> float: ...
-    @property
-    def offset(self) -> float:
-        """
-        [rad | m]
         """
 
 class AdjacentLinks(enum.Enum):
@@ -1553,6 +1852,48 @@ class ModelBuilder:
         """
         The checks of `build` alone; raises ModelError.
         """
+    def joint(self, name: str) -> BuilderJoint:
+        """
+        A joint by name, to read and to change.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        BuilderJoint
+
+        Raises
+        ------
+        ModelError
+            On an unknown name; lists the names there are.
+        """
+    def link(self, name: str) -> BuilderLink:
+        """
+        A link by name, to read and to change.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        BuilderLink
+
+        Raises
+        ------
+        ModelError
+            On an unknown name; lists the names there are.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.read_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> builder.link("ball_0").mass = 2.0
+        >>> builder.build().link("ball_0").mass
+        2.0
+        """
     def set_adjacent_links(self, adjacent: AdjacentLinks | str) -> ModelBuilder:
         """
         Sets whether links on both sides of one joint may collide.
@@ -1644,7 +1985,298 @@ class ModelBuilder:
         solver : TreeSolver or str
         """
     @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def link_names(self) -> list[str]: ...
+    @property
     def warnings(self) -> list[str]: ...
+
+class BuilderLink:
+    """
+    A link of a builder: what is set here is checked and kept at once.
+
+    Made by `ModelBuilder.link`. Models that were built before do not change.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def inertia(self) -> BodyInertia:
+        """
+        BodyInertia: mass, centre of mass and inertia about it, in the link's frame
+        """
+    @inertia.setter
+    def inertia(self, arg1: BodyInertia) -> None: ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg] When it is set the centre of mass stays, and the inertia about it grows with it
+        """
+    @mass.setter
+    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def material(self) -> str | None:
+        """
+        what its shapes are made of, see `set_contact`; None where nothing is said
+        """
+    @material.setter
+    def material(self, arg1: str) -> None: ...
+    @property
+    def name(self) -> str: ...
+
+class BuilderJoint:
+    """
+    A joint of a builder: what is set here is checked and kept at once.
+
+    Made by `ModelBuilder.joint`. Models that were built before do not change.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def X_PJ(self) -> Pose:
+        """
+        Pose of the joint's frame in the parent link's
+        """
+    @X_PJ.setter
+    def X_PJ(self, arg1: Pose) -> None: ...
+    @property
+    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        in the joint's frame, of any length but 0, shape (3,)
+        """
+    @axis.setter
+    def axis(
+        self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> None: ...
+    @property
+    def child(self) -> str: ...
+    @property
+    def damping(self) -> float:
+        """
+        [N m s/rad | N s/m]
+        """
+    @damping.setter
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def effort(self) -> float:
+        """
+        [N m | N] limit, inf where there is none
+        """
+    @effort.setter
+    def effort(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction(self) -> float:
+        """
+        [N m | N]
+        """
+    @friction.setter
+    def friction(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def lower(self) -> float:
+        """
+        [rad | m] limit, -inf where there is none
+        """
+    @lower.setter
+    def lower(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def mimic(self) -> Mimic | None:
+        """
+        Mimic or None
+        """
+    @mimic.setter
+    def mimic(self, arg1: Mimic | None) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def parent(self) -> str: ...
+    @property
+    def pitch(self) -> float:
+        """
+        [m/rad] helical joints only
+        """
+    @pitch.setter
+    def pitch(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def type(self) -> JointType: ...
+    @property
+    def upper(self) -> float:
+        """
+        [rad | m] limit, inf where there is none
+        """
+    @upper.setter
+    def upper(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity(self) -> float:
+        """
+        [rad/s | m/s] limit, inf where there is none
+        """
+    @velocity.setter
+    def velocity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Frames:
+    """
+    A model at one configuration: its kinematics once, then what follows.
+
+    Made by `Model.at`. `set` moves it on without new memory, which a loop over configurations wants; to
+    have many at once, the methods of `Model` take arrays of shape (rows, n_q). World axes and
+    [angular; linear] throughout. Not for two threads at once.
+    """
+    def __repr__(self) -> str: ...
+    def accelerations(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        As `Model.accelerations`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        forces : array_like, shape (n_v,), or mapping of names to values, optional
+            [N m | N]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,)
+        """
+    def all_poses(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Homogeneous matrices of all links, shape (links, 4, 4).
+        """
+    def all_shape_poses(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Homogeneous matrices of all shapes, shape (shapes, 4, 4).
+        """
+    def centre_of_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] of all that moves, in the world, shape (3,).
+        """
+    def gaps(self) -> Gaps:
+        """
+        Gaps of all pairs, as `Model.gaps`.
+        """
+    def gravity_forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        What gravity does to the coordinates [N m | N], shape (n_v,); see `Model`.
+        """
+    def inverse_dynamics(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        As `Model.inverse_dynamics`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        a : array_like, shape (n_v,), or mapping of names to values
+            [rad/s^2 | m/s^2]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,)
+        """
+    def jacobian(
+        self, link: str | int | Link, point: typing.Any = None
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        As `Model.jacobian`, here.
+
+        Parameters
+        ----------
+        link : str, int or Link
+        point : array_like, shape (3,), optional
+            [m] in the link's frame.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
+        """
+    def mass_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        M(q), shape (n_v, n_v).
+        """
+    def momentum(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        *,
+        about: typing.Any = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
+        """
+        As `Model.momentum`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        about : array_like, shape (3,), optional
+            [m] point in the world; None: its origin.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6,)
+        """
+    def pose(self, link: str | int | Link) -> Pose:
+        """
+        Pose of a link in the world.
+
+        Parameters
+        ----------
+        link : str, int or Link
+
+        Returns
+        -------
+        Pose
+        """
+    def set(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> Frames:
+        """
+        Moves to another configuration and returns itself.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        Frames
+        """
+    def shape_pose(self, shape: str | int) -> Pose:
+        """
+        Pose of a shape in the world.
+
+        Parameters
+        ----------
+        shape : str or int
+            Its name, as in pairs, or index.
+
+        Returns
+        -------
+        Pose
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg] of all that moves
+        """
+    @property
+    def model(self) -> Model: ...
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [rad | m] shape (n_q,)
+        """
 
 class MeshUse(enum.Enum):
     """
@@ -2001,6 +2633,7 @@ class Impact:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
+    def _repr_html_(self) -> str: ...
     @property
     def certificate(self) -> str: ...
     @property
@@ -2184,6 +2817,18 @@ class Trajectory:
     """
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
+    @staticmethod
+    def from_states(
+        model: Model,
+        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        momenta: bool,
+        h: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> Trajectory:
+        """
+        A run of given rows: `rows` are velocities or `momenta`.
+        """
     def __init__(self, model: Model) -> None:
         """
         Of no rows; `simulate` writes to it.
@@ -2275,6 +2920,7 @@ class Energies:
     """
     Energies of one state.
     """
+    def __repr__(self) -> str: ...
     @property
     def kinetic(self) -> float:
         """

@@ -113,6 +113,20 @@ void print_long_step(const Model& model, const State& start) {
   }
 }
 
+/// Inverse and forward dynamics, kinematics included, as Pinocchio's rnea and aba have them.
+void print_dynamics(double budget, const Model& model, const VecX& q, const VecX& v) {
+  Frames frames(model);
+  VecX forces, a;
+  std::cout << ", \"inverse_dynamics\": " << time_of(budget, [&] {
+    frames.set(q);
+    frames.inverse_dynamics(v, v, forces);
+  });
+  std::cout << ", \"accelerations\": " << time_of(budget, [&] {
+    frames.set(q);
+    frames.accelerations(v, forces, a);
+  });
+}
+
 void run(double budget, const bench::Job& job) {
   UrdfOptions options;
   if (job.floating) options.root_joint = JointType::floating;
@@ -131,6 +145,7 @@ void run(double budget, const bench::Job& job) {
   if (n <= largest_dense) {
     std::cout << ", \"lagrangian\": " << time_of(budget, [&] { model.lagrangian(q, v); });
   }
+  print_dynamics(budget, model, q, v);
   VecX rates = VecX::Constant(n, job.rate);
   if (job.floating) rates.head(6).setZero();
   const State start = model.state(q, rates);

@@ -2,6 +2,7 @@
 //
 // Arguments, clock and output as in bench_kernels.cpp.
 #include <pinocchio/algorithm/aba-derivatives.hpp>
+#include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/joint-configuration.hpp>
 #include <pinocchio/algorithm/rnea-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
@@ -31,6 +32,7 @@ void run(double budget, const Job& job) {
   const VectorXd v = VectorXd::Constant(model.nv, 0.1), a = v;
   std::cout << "{\"model\": \"" << model.name << "\", \"n\": " << model.nv
             << ", \"rnea\": " << time_of(budget, [&] { pinocchio::rnea(model, data, q, v, a); })
+            << ", \"aba\": " << time_of(budget, [&] { pinocchio::aba(model, data, q, v, a); })
             << ", \"derivatives\": "
             << time_of(budget, [&] { pinocchio::computeRNEADerivatives(model, data, q, v, a); })
             << ", \"aba_derivatives\": "

@@ -13,6 +13,7 @@ joints where a base is free, the others have a free-flyer. A ratio below 1 means
 
 - partials: L and all first and second partials: all non-zero products, into allocated arrays
 - / deriv, / rnea: over Pinocchio's computeRNEADerivatives, and L, L_q, L_v over its rnea
+- inverse / rnea, forward / aba: inverse and forward dynamics, kinematics included, over Pinocchio's
 - of peak: flops of the partials (480 a joint, 54 a pair of joint and ancestor) in their time, over
   what a loop of fused multiply-adds reaches on the same core
 - step: 200 steps of 1 ms after 10, from rest at 0.1 rad (robots: at 0 rad, with
@@ -31,6 +32,8 @@ RATIOS = {
     "of peak": lambda row, peaks: percent(fraction_of_peak(row, peaks)),
     "L, L_q, L_v": lambda row, _: number(least(row, "first")),
     "/ rnea": lambda row, _: number(ratio(row, "first", "pinocchio_rnea")),
+    "inverse / rnea": lambda row, _: number(ratio(row, "inverse_dynamics", "pinocchio_rnea")),
+    "forward / aba": lambda row, _: number(ratio(row, "accelerations", "pinocchio_aba")),
     "step": lambda row, _: number(least(row, "step")),
     "Newton": lambda row, _: number(row.get("iterations")),
     "/ Euler": lambda row, _: number(ratio(row, "step", "mujoco_step")),
@@ -48,6 +51,8 @@ TIMES = {  # what the ratios are made of, and more
     "partials": "partials",
     "lagrangian": "lagrangian()",
     "first": "L, L_q, L_v",
+    "inverse_dynamics": "inverse dynamics",
+    "accelerations": "forward dynamics",
     "newton": "one Newton iteration",
     "step": "step",
     "step_10ms": "10 ms step",
@@ -59,6 +64,7 @@ TIMES = {  # what the ratios are made of, and more
     "pinocchio_derivatives": "computeRNEADerivatives",
     "pinocchio_aba_derivatives": "computeABADerivatives",
     "pinocchio_rnea": "rnea",
+    "pinocchio_aba": "aba",
 }
 
 

@@ -18,6 +18,7 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_balls.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
+  lagrangian/test_newton_euler.cpp
   lagrangian/test_no_allocation.cpp
   lagrangian/test_packed.cpp
   lagrangian/test_packed_matrix.cpp
@@ -43,7 +44,9 @@ set(SALTUS_TEST_model
   model/test_assembly.cpp
   model/test_build_errors.cpp
   model/test_builder_errors.cpp
+  model/test_changes.cpp
   model/test_filter.cpp
+  model/test_frames.cpp
   model/test_golden.cpp
   model/test_materials.cpp
   model/test_merge.cpp

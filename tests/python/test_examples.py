@@ -67,6 +67,12 @@ PREDICTED = {
     ],
     "pairs": ["27 pairs 0.4 m apart, to 1e-14 m"],
     "quadruped": ["contacts held: 8"],
+    "reach": [
+        "  to_upper (revolute about -y): upper, 4 kg",
+        "elbow at 1.570796 rad",
+        "held by 18.3447 N m at the shoulder and 2.6487 N m at the elbow",
+        "less than 1e-12 rad/s^2: True",
+    ],
     "tower": [
         "the contacts of floor bear 39.240 N",
         "the contacts of box_3 bear 9.810 N",

@@ -84,3 +84,12 @@ def test_library_looks_only_beside_itself_for_others():
     assert re.findall(r"\((RPATH|RUNPATH)\).*\[(.*)\]", dynamic) == [
         ("RPATH", "$ORIGIN/../../cmeel.prefix/lib")
     ]
+
+
+def test_import_leaves_what_is_rarely_needed():
+    """Each of these takes from 40 ms to 1 s, which a first `import saltus` should not."""
+    code = "import sys, saltus; print(*sys.modules)"
+    command = [sys.executable, "-c", code]
+    loaded = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+    late = {"h5py", "matplotlib", "scipy", "tqdm", "http.server", "unittest", "asyncio"}
+    assert not late & set(loaded)

@@ -26,7 +26,7 @@ ROOMS["trajectory"] = {"runs"}
 
 # The modules of a folder. Each may import those before it, and the folder's __init__ all of them.
 ORDER = {
-    "records": ["tables", "impacts", "recording", "files"],
+    "records": ["tables", "models", "impacts", "recording", "files"],
     "plots": ["figure", "cradle", "run", "impacts", "pairs"],
     "runs": ["trajectory", "batch_trajectory", "starts", "progress", "simulate", "batch"],
     "cli": ["commands", "main"],

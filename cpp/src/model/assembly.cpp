@@ -59,9 +59,24 @@ Assembly::Place Assembly::add_frame(const Place& at, const Axis& axis, int spec,
   return {i, {A.transpose(), Vec3::Zero()}};
 }
 
+void Assembly::describe(const JointSpec& joint, JointInfo& info) const {
+  info.index = static_cast<int>(m_.joints.size()) - 1;
+  info.X_PJ = joint.X_PJ;
+  if (has_axis(joint.type)) info.axis = joint.axis.stableNormalized();
+  info.pitch = joint.pitch;
+  if (joint.mimic) {
+    info.mimics = joint.mimic->joint;
+    info.multiplier = joint.mimic->multiplier;
+    info.offset = joint.mimic->offset;
+  }
+  info.lower = joint.lower;
+  info.upper = joint.upper;
+}
+
 Assembly::Place Assembly::add_joint_frames(const Place& parent, int spec) {
   const JointSpec& joint = d_.joints[spec];
   m_.joints.push_back({joint.name, joint.type, joint.parent, joint.child, {}, {}, {}});
+  describe(joint, m_.joints.back());
   const Mat3 A =
       has_axis(joint.type) ? rotation_z_to(joint.axis.stableNormalized()) : Mat3(Mat3::Identity());
   Place at{parent.joint, parent.X_JF * joint.X_PJ * Pose{A, Vec3::Zero()}};
@@ -81,7 +96,8 @@ void Assembly::add_frames() {
   }
   for (std::size_t i = 0; i < d_.links.size(); ++i) {
     const LinkSpec& link = d_.links[i];
-    m_.links.push_back({link.name, place_[i].joint, place_[i].X_JF, link.inertia.mass});
+    m_.links.push_back({link.name, place_[i].joint, place_[i].X_JF, link.inertia.mass, link.inertia,
+                        static_cast<int>(i)});
   }
 }
 

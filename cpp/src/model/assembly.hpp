@@ -59,6 +59,7 @@ class Assembly {
   void add_frames();  // joints -> tree, links -> places
   Place add_frame(const Place& at, const Axis& axis, int spec, int velocity);
   Place add_joint_frames(const Place& parent, int spec);
+  void describe(const JointSpec& joint, JointInfo& info) const;
 
   // masses.cpp
   void add_masses();

@@ -7,6 +7,7 @@
 
 #include "saltus/collision/contact.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/model/frames.hpp"
 
 namespace saltus {
 namespace {
@@ -88,6 +89,10 @@ int Model::velocity_index(const std::string& name) const {
 
 int Model::link(const std::string& name) const {
   return index_of(names_of(data_->links), "link", name);
+}
+
+int Model::joint(const std::string& name) const {
+  return index_of(names_of(data_->joints), "joint", name);
 }
 
 std::string Model::pair_name(int pair) const {
@@ -196,31 +201,30 @@ double Model::potential_energy(const VecRef& q) const {
 }
 
 Pose Model::X_WL(const VecRef& q, int link) const {
-  const Link& l = data_->links.at(static_cast<std::size_t>(link));
-  Kinematics kin(data_->tree);
-  set_configuration(data_->tree, checked_q(q, "q"), kin);
-  return kin.X_WJ(data_->tree, l.joint) * l.X_JL;
+  const AttachedFrame frame = link_frame(*this, link);
+  return Frames(*this, q).pose(frame);
 }
 
-Gaps Model::gaps(const VecRef& q) const {
-  const ModelData& m = *data_;
-  Kinematics kin(m.tree);
-  set_configuration(m.tree, checked_q(q, "q"), kin);
+Gaps Model::gaps(const VecRef& q) const { return Frames(*this, q).gaps(); }
+
+Gaps gaps_at(const Model& model, const Kinematics& kin) {
+  const ModelData& m = *model;
   const auto rows = static_cast<Eigen::Index>(m.pairs.size());
-  if (static_cast<double>(rows) * (n_v() + 2.0) * n_v() > most_dense) {
+  const int n_v = model.n_v();
+  if (static_cast<double>(rows) * (n_v + 2.0) * n_v > most_dense) {
     throw ModelError("gaps of " + std::to_string(rows) + " pairs with Hessians of " +
-                     std::to_string(n_v()) + " velocities take more than 1 GiB; " +
+                     std::to_string(n_v) + " velocities take more than 1 GiB; " +
                      "take pair(k) and pair_gap one by one");
   }
   Gaps out;
   out.phi.resize(rows);
-  out.phi_q.setZero(rows, n_v());
-  out.phi_qq.assign(static_cast<std::size_t>(rows), MatX::Zero(n_v(), n_v()));
+  out.phi_q.setZero(rows, n_v);
+  out.phi_qq.assign(static_cast<std::size_t>(rows), MatX::Zero(n_v, n_v));
   out.normal.resize(rows, 3);
   out.p_WA.resize(rows, 3);
   out.p_WB.resize(rows, 3);
   for (int i = 0; i < rows; ++i) {
-    const Pair pair = this->pair(i);
+    const Pair pair = model.pair(i);
     const Gap g = pair_gap(m.tree, kin, pair);
     const bool silent = is_silent(m.tree, kin, pair, g);
     out.names.push_back(saltus::pair_name(m.shapes, pair));
@@ -228,7 +232,7 @@ Gaps Model::gaps(const VecRef& q) const {
     out.normal.row(i) = g.n_W;
     out.p_WA.row(i) = g.p_WA;
     out.p_WB.row(i) = g.p_WB;
-    VecX row = VecX::Zero(n_v());
+    VecX row = VecX::Zero(n_v);
     if (!silent) add_gap_gradient(m.tree, kin, pair, g, row);
     out.phi_q.row(i) = row;
     if (!silent) add_gap_hessian(m.tree, kin, pair, g, out.phi_qq[i]);

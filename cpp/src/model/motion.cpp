@@ -1,5 +1,7 @@
 #include "saltus/model/motion.hpp"
 
+#include "saltus/model/frames.hpp"
+
 namespace saltus {
 namespace {
 
@@ -33,11 +35,11 @@ AttachedFrame shape_frame(const Model& model, int shape) {
 
 MatX poses(const Model& model, const AttachedFrame& frame, const Eigen::Ref<const MatX>& q) {
   check_rows(q, model.n_q(), "q", "coordinates");
-  Kinematics kin(model->tree);
+  Frames frames(model);
   MatX out(q.rows(), 16);
   for (Eigen::Index row = 0; row < q.rows(); ++row) {
-    set_configuration(model->tree, row_of(model, q, row), kin);
-    const Pose X_WF = kin.X_WJ(model->tree, frame.joint) * frame.X_JF;
+    frames.set(q.row(row).transpose(), "row " + std::to_string(row) + " of q");
+    const Pose X_WF = frames.pose(frame);
     Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(out.row(row).data());
     T << X_WF.R, X_WF.p, 0, 0, 0, 1;
   }

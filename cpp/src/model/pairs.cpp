@@ -19,7 +19,7 @@ void Assembly::add_shapes() {
     }
     std::string name = spec.name.empty() ? spec.link : spec.name;
     if (const int k = ++count[name]; k > 1) name.append("#").append(std::to_string(k));
-    m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name});
+    m_.shapes.push_back({spec.shape, place.joint, place.X_JF * spec.X_LG, link, name, spec.X_LG});
   }
   add_filter();
   add_materials();

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import textwrap
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -116,9 +117,8 @@ def info(chosen: argparse.Namespace) -> int:
     print(f"{model.name}: {', '.join(parts)}, {mass:g} kg")
     _print_solvers(model)
     print(f"default contact: {_in_words(model.default_contact)}")
-    _print_table(
-        "links", ["name", "mass [kg]"], ([link.name, f"{link.mass:g}"] for link in model.links)
-    )
+    print("\nlinks, each after its joint")
+    print(textwrap.indent("\n".join(saltus.model_tree(model).splitlines()[1:]), "  "))
     _print_coordinates(model)
     _print_table(
         "shapes",
@@ -201,9 +201,7 @@ def _kind(model: saltus.Model, pair: tuple[int, int]) -> str:
 
 
 def _print_pair_kinds(model: saltus.Model) -> None:
-    counts = model.pair_kinds()
-    table = sorted({(min(row), max(row)) for row in saltus.gap_table()})
-    rows = ([f"{a} ~ {b}", str(counts.get((a, b), 0))] for a, b in table)
+    rows = ([f"{a} ~ {b}", str(count)] for (a, b), count in sorted(model.pair_kinds().items()))
     _print_table("kinds of pairs", ["kind", "gaps in this model"], rows)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from saltus._core import Impact
+from saltus.records.models import html_table
 from saltus.records.tables import counted
 
 MOST_ROWS = 30  # of a table that print makes; a cradle of 1000 balls has 999 impulses at once
@@ -80,9 +81,21 @@ def _cells(impact: Impact, i: int) -> tuple[str, str, str, str]:
     return str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}", f"({friction})"
 
 
+def _html(self: Impact) -> str:
+    count = len(self.pairs)
+    rubs = self.tangentials.any()
+    width = 4 if rubs else 3
+    heads = ["#", "pair", "λ [N s]", "friction [N s]"][:width]
+    rows = [list(_cells(self, i)[:width]) for i in range(min(count, MOST_ROWS))]
+    if count > MOST_ROWS:
+        rows.append(["", f"... {count - MOST_ROWS} more", "", ""][:width])
+    return html_table(heads, rows, headline(self))
+
+
 def _printed(self: Impact) -> str:
     return impact_table(self, most=MOST_ROWS)
 
 
 # Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
 Impact.__str__ = _printed  # type: ignore[method-assign]
+Impact._repr_html_ = _html  # type: ignore[method-assign]

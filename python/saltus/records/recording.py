@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from saltus import _core
-from saltus._core import Impact, ImpactLaw, Model, ModelError, State, StepOptions
+from saltus._core import Impact, ImpactLaw, Link, Model, ModelError, State, StepOptions
 from saltus.records.tables import (
     ARRAYS,
     CONTACT,
@@ -200,10 +200,10 @@ class Recording:
             )
         return self.model
 
-    def poses(self, link: str | int) -> Array:
+    def poses(self, link: str | int | Link) -> Array:
         """Return the homogeneous matrices of a link, shape (rows, 4, 4)."""
         return self.require_model().poses(self.q, link)
 
-    def velocities(self, link: str | int) -> Array:
+    def velocities(self, link: str | int | Link) -> Array:
         """Return angular velocity [rad/s] and velocity of a link's origin [m/s], (rows, 6)."""
         return self.require_model().velocities(self.q, self.v, link)

@@ -43,6 +43,18 @@ LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
 
+def as_array(x: npt.ArrayLike | None, name: str, dimensions: int) -> Array:
+    """Return an array of finite numbers; raise ModelError, which names it, where it is none."""
+    try:
+        array: Array = np.asarray(x, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ModelError(f"{name} is no array of numbers: {error}") from None
+    if array.ndim != dimensions:
+        shape = "(rows,)" if dimensions == 1 else "(rows, n)"
+        raise ModelError(f"{name} has shape {array.shape}; it must have shape {shape}")
+    return array
+
+
 def counted(number: int, noun: str) -> str:
     """Return "1 row", "2 rows", "2 velocities"."""
     if number == 1:

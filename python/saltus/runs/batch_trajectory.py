@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import ImpactLaw, Model, StepOptions
+from saltus.records.models import MOST_ROWS, html_table
 from saltus.records.tables import Array, counted, index_of
 from saltus.runs.trajectory import Trajectory
 
@@ -110,6 +111,18 @@ class BatchTrajectory:
 
     def __repr__(self) -> str:
         return f"<saltus.BatchTrajectory: {self.summary()}>"
+
+    def _repr_html_(self) -> str:
+        """Return a table of the runs for notebooks."""
+        heads = ["run", "rows", "impacts", "energy error", "went"]
+        rows = []
+        for i in range(min(len(self), MOST_ROWS)):
+            went = "complete" if self.complete[i] else self.failures.get(i, "stopped")
+            error = f"{self.energy_error[i]:.1e}"
+            rows.append([str(i), str(self.rows[i]), str(self.impacts[i]), error, went])
+        if len(self) > MOST_ROWS:
+            rows.append([f"... {len(self) - MOST_ROWS} more", "", "", "", ""])
+        return html_table(heads, rows, self.summary())
 
     def summary(self) -> str:
         """Return one line that says how many runs, how long and how they went."""

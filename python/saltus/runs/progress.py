@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 
-from tqdm import tqdm
-
 Progress = Callable[[float], object]
 
 # Runs that end sooner need no bar.
@@ -29,6 +27,8 @@ class Bar:
     """A bar on stderr; a class, as `contextlib.contextmanager` writes to exceptions it lets out."""
 
     def __init__(self, total: float, unit: str, *, always: bool) -> None:
+        from tqdm import tqdm  # here: it takes a fifth of the time of `import saltus`
+
         self.total = total
         self.bar = tqdm(
             total=total,

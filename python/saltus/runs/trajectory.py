@@ -6,10 +6,14 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from saltus import plots
-from saltus._core import Model
+import numpy as np
+from numpy.typing import ArrayLike
+
+from saltus import _core, plots
+from saltus._core import Model, ModelError
 from saltus.records import files
 from saltus.records.recording import Recording
+from saltus.records.tables import as_array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,6 +86,67 @@ class Trajectory(Recording):
         Greatest |H(t) - H(0) - work(t)| over the greatest kinetic energy of the run. Impacts with
         restitution below 1 and friction between bodies count as error.
     """
+
+    @classmethod
+    def from_states(
+        cls,
+        model: Model,
+        t: ArrayLike,
+        q: ArrayLike,
+        v: ArrayLike | None = None,
+        *,
+        p: ArrayLike | None = None,
+        h: float | None = None,
+    ) -> Trajectory:
+        """Return a run of given rows: of a loop of one's own, of a planner, of a measurement.
+
+        It is plotted, shown, saved and loaded as any other run; energies are computed, and of
+        impacts it knows nothing.
+
+        Parameters
+        ----------
+        model : Model
+        t : array_like, shape (rows,)
+            [s] not decreasing.
+        q : array_like, shape (rows, n_q)
+            [rad | m]
+        v : array_like, shape (rows, n_v), optional
+            [rad/s | m/s] None: p, or at rest.
+        p : array_like, shape (rows, n_v), optional
+            Momenta in place of velocities.
+        h : float, optional
+            [s] step of the shadow energy; None: the time between the first two rows.
+
+        Returns
+        -------
+        Trajectory
+
+        Raises
+        ------
+        ModelError
+            On shapes that do not fit, times that decrease, values that no state has, v and p both.
+
+        Examples
+        --------
+        >>> import numpy as np, saltus
+        >>> model = saltus.load_urdf(saltus.scenes.chain(1))
+        >>> t = np.linspace(0.0, 1.0, 11)
+        >>> run = saltus.Trajectory.from_states(model, t, np.sin(t)[:, None], np.cos(t)[:, None])
+        >>> len(run)
+        11
+        """
+        if v is not None and p is not None:
+            raise ModelError("give either v or p, not both")
+        times = as_array(t, "t", 1)
+        configurations = as_array(q, "q", 2)
+        rows = np.zeros((len(times), model.n_v)) if v is None and p is None else None
+        if rows is None:
+            rows = as_array(v, "v", 2) if p is None else as_array(p, "p", 2)
+        if h is None:
+            h = float(times[1] - times[0]) if len(times) > 1 and times[1] > times[0] else 0.01
+        momenta = p is not None
+        core = _core.Trajectory.from_states(model, times, configurations, rows, momenta, h)
+        return cls.from_core(core)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to an HDF5 file, with the model's URDF text in it.

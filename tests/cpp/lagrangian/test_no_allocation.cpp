@@ -3,6 +3,7 @@
 
 #include "count_allocations.hpp"
 #include "lagrangian/packed_trees.hpp"
+#include "saltus/lagrangian/newton_euler.hpp"
 #include "saltus/lagrangian/partials.hpp"
 #include "saltus/lagrangian/shadow.hpp"
 
@@ -41,6 +42,7 @@ TEST(Allocation, NoneInTheKernels) {
     PackedProducts products(e.packed);
     SecondPartials rows(e.packed);
     FreeMotion free(e.t.tree, e.packed);
+    PackedForces forces(e.packed);
     ShadowTerm shadow(e.t.tree, e.packed);
     VecX x = e.t.v;
     const long before = allocations;
@@ -48,7 +50,10 @@ TEST(Allocation, NoneInTheKernels) {
     set_rates(e.t.tree, e.packed, e.t.v, e.w);
     place(e.packed, e.w);
     move(e.packed, e.w);
+    set_accelerations(e.t.tree, e.packed, e.t.v, forces);
+    newton_euler(e.packed, e.w, forces);
     first_pass(e.packed, e.w);
+    gravity_pass(e.packed, e.w, forces);
     scale_pass(e.packed, 0.1, e.w);
     second_pass(e.packed, e.w);
     multiply_by_rates(e.packed, e.w, products);

@@ -27,6 +27,7 @@ struct Placed {
 struct PlacedShape : Placed {
   int link = 0;      ///< index of the link it belongs to
   std::string name;  ///< unique: the link's name, "#k" added where a link has several shapes
+  Pose X_LG = {};    ///< in its link's frame
 };
 
 // How the gap of a pair is found; see parts.hpp. What is `out` goes out of the shape, in the part's

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ struct Link {
   int joint = -1;   ///< index in the tree; -1: fixed to the world
   Pose X_JL;        ///< the link's frame in the joint's frame
   double mass = 0;  ///< [kg] own mass
+
+  BodyInertia inertia = {};  ///< own, in the link's frame
+  int index = 0;             ///< in the model's links
 };
 
 /// What a coordinate is measured in: one of a quaternion's four numbers has no unit.
@@ -57,6 +61,14 @@ struct JointInfo {
   std::vector<int> frames;       ///< joints of the tree, outermost last; none where fixed
   std::vector<int> coordinates;  ///< indices in q of those that move it
   std::vector<int> velocities;   ///< likewise in v and p
+
+  int index = 0;                      ///< in the model's joints
+  Pose X_PJ = {};                     ///< the joint's frame in the parent link's, at displacement 0
+  std::optional<Vec3> axis = {};      ///< unit, in the joint's frame; where it has one
+  double pitch = 0;                   ///< [m/rad] of a helical one
+  std::string mimics = {};            ///< the joint that it follows; "" of all others
+  double multiplier = 1, offset = 0;  ///< of one that follows, as in Mimic
+  double lower = 0, upper = 0;  ///< [rad | m] as its author gave them; infinite where there is none
 };
 
 /// Trees that are solved together: one, or equal ones side by side in lanes.
@@ -170,6 +182,8 @@ class SALTUS_EXPORT Model {
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
   std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees
+
+  int joint(const std::string& name) const;  ///< index in the joints, or ModelError with the names
 
   /// A copy of this model without any pair: bodies pass through each other.
   Model without_collisions() const;

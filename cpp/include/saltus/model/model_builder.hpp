@@ -1,6 +1,7 @@
 // Describe a model link by link, then freeze it with build(). The only class with add_ verbs.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,18 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& set_effects(JointEffects effects);
 
   ModelBuilder& add_warning(std::string text);
+
+  /// What was said of a link or joint, or ModelError with the names there are.
+  const LinkSpec& link_spec(const std::string& name) const;
+  const JointSpec& joint_spec(const std::string& name) const;
+  /// Says it anew: `change` gets a copy, which is checked as by add_link or add_joint, then kept.
+  /// The text that a model was read from is forgotten, since it says something else.
+  /// @throws ModelError where the name changes, too.
+  ModelBuilder& change_link(const std::string& name, const std::function<void(LinkSpec&)>& change);
+  ModelBuilder& change_joint(const std::string& name,
+                             const std::function<void(JointSpec&)>& change);
+  /// [kg] The centre of mass stays, and the inertia about it grows with the mass.
+  ModelBuilder& set_mass(const std::string& link, double mass);
 
   void check() const;  ///< the checks of build() alone
   Model build() const;

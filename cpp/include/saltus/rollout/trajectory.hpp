@@ -46,4 +46,15 @@ struct SALTUS_EXPORT Trajectory {
   double energy_error() const;
 };
 
+enum class RowsOf { velocities, momenta };
+
+/// A run of states that somebody else computed: rows at times t (rows) [s], q (rows, n_q), and
+/// v or p (rows, n_v). Energies are computed; impacts and all else of a run are absent. `h` [s] is
+/// the step of the shadow energy.
+/// @throws ModelError where shapes do not fit, times decrease, or a value is none that a state has;
+///         StepError where a mass matrix is singular.
+SALTUS_EXPORT Trajectory from_states(const Model& model, const VecRef& t,
+                                     const Eigen::Ref<const MatX>& q,
+                                     const Eigen::Ref<const MatX>& v_or_p, RowsOf kind, double h);
+
 }  // namespace saltus

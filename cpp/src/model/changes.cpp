@@ -1,0 +1,71 @@
+// Links and joints that are said anew.
+#include <algorithm>
+#include <cmath>
+
+#include "model/assembly.hpp"
+
+namespace saltus {
+namespace {
+
+/// The item of this name. @throws ModelError with the names there are.
+template <class Items>
+auto& named(Items& items, const std::string& element, const std::string& name) {
+  for (auto& item : items) {
+    if (item.name == name) return item;
+  }
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  throw ModelError("no " + element + " " + quoted(name) + "; there are " + list_names(names),
+                   element, name);
+}
+
+void check_name(const std::string& now, const std::string& element, const std::string& name) {
+  if (now == name) return;
+  throw ModelError(
+      element + " " + quoted(name) + " cannot become " + quoted(now) + ": others know it by name",
+      element, name);
+}
+
+}  // namespace
+
+const LinkSpec& ModelBuilder::link_spec(const std::string& name) const {
+  return named(d_.links, "link", name);
+}
+
+const JointSpec& ModelBuilder::joint_spec(const std::string& name) const {
+  return named(d_.joints, "joint", name);
+}
+
+ModelBuilder& ModelBuilder::change_link(const std::string& name,
+                                        const std::function<void(LinkSpec&)>& change) {
+  LinkSpec& link = named(d_.links, "link", name);
+  LinkSpec changed = link;
+  change(changed);
+  check_name(changed.name, "link", name);
+  check_inertia(changed.inertia, name);
+  link = std::move(changed);
+  d_.source.clear();
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::change_joint(const std::string& name,
+                                         const std::function<void(JointSpec&)>& change) {
+  JointSpec& joint = named(d_.joints, "joint", name);
+  JointSpec changed = joint;
+  change(changed);
+  check_name(changed.name, "joint", name);
+  ModelBuilder judge;  // add_joint has the checks
+  joint = judge.add_joint(changed).d_.joints.back();
+  d_.source.clear();
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::set_mass(const std::string& link, double mass) {
+  return change_link(link, [&](LinkSpec& spec) {
+    const double before = spec.inertia.mass;
+    spec.inertia.mass = mass;
+    if (std::isfinite(mass) && before > 0) spec.inertia.I_J *= mass / before;
+  });
+}
+
+}  // namespace saltus
