@@ -76,6 +76,7 @@ set(SALTUS_SOURCES
   cpp/src/model/solids.cpp
   cpp/src/model/topology.cpp
   cpp/src/model/unsaid.cpp
+  cpp/src/model/visuals.cpp
   # variational
   cpp/src/variational/terms/options.cpp
   cpp/src/variational/law/cascade.cpp
@@ -133,6 +134,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/extension.cpp
   cpp/src/urdf/geometry.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/mesh_checks.cpp
   cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
   cpp/src/urdf/numbers.cpp
@@ -144,6 +146,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp
+  cpp/src/urdf/visuals.cpp
 )
 
 set(SALTUS_BINDING_SOURCES
@@ -162,6 +165,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_motion.cpp
+  python/bindings/bind_visuals.cpp
   python/bindings/pickle.cpp
   # urdf
   python/bindings/bind_urdf.cpp

@@ -151,6 +151,16 @@ void bind_model_builder(py::module_& m) {
           py::arg_v("inertia", BodyInertia{}, "BodyInertia()"))
       .def("add_shape", &ModelBuilder::add_shape, self, docs::add_shape, py::arg("link"),
            py::arg("shape"), py::arg_v("X_LG", Pose{}, "Pose()"))
+      .def(
+          "add_visual",
+          [](ModelBuilder& builder, const std::string& link,
+             const std::variant<Shape, TriangleMesh>& shape, const Pose& X_LG, const Rgba& rgba,
+             const std::string& name) -> ModelBuilder& {
+            return builder.add_visual({link, shape, X_LG, rgba, name});
+          },
+          self, docs::add_visual, py::arg("link"), py::arg("shape"),
+          py::arg_v("X_LG", Pose{}, "Pose()"), py::kw_only(),
+          py::arg_v("rgba", Visual::grey, "(0.7, 0.7, 0.7, 1)"), py::arg("name") = "")
       .def("add_half_space", &ModelBuilder::add_half_space, self, docs::add_half_space,
            py::arg("name"), py::arg("normal"), py::arg("offset") = 0.0)
       .def("add_exclusion", &ModelBuilder::add_exclusion, self, docs::add_exclusion,

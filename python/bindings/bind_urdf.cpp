@@ -54,6 +54,8 @@ contact : ContactProperties, optional
     The default contact, in place of the file's own.
 floor : bool
     Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
+visuals : bool
+    Reads what links look like, `Model.visuals`.
 
 Returns
 -------
@@ -74,7 +76,7 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                        const py::typing::Iterable<PathLike>& package_dirs,
                        const Choice<JointType>& root_joint, const Choice<TreeSolver>& solver,
                        const Choice<MeshUse>& meshes, const std::optional<PathLike>& srdf,
-                       const std::optional<ContactProperties>& contact, bool floor) {
+                       const std::optional<ContactProperties>& contact, bool floor, bool visuals) {
   if (py::isinstance<py::str>(package_dirs)) {  // would be a sequence of letters
     throw py::type_error("package_dirs is a sequence of folders, not one text");
   }
@@ -85,7 +87,8 @@ ModelBuilder read_urdf(const PathLike& path_or_text, const Vec3& gravity,
                       to_enum(meshes, "meshes"),
                       {},
                       contact,
-                      floor};
+                      floor,
+                      visuals};
   if (srdf && !srdf->value.is_none()) options.srdf = to_path(*srdf);
   for (const py::handle path : package_dirs) {
     options.package_dirs.push_back(to_path({py::reinterpret_borrow<py::object>(path)}));
@@ -109,7 +112,8 @@ void bind_urdf(py::module_& m) {
         py::arg_v("solver", UrdfOptions{}.solver, "TreeSolver.automatic"),
         py::arg_v("meshes", UrdfOptions{}.meshes, "MeshUse.hull"),
         py::arg_v("srdf", py::none(), "None"), py::arg_v("contact", py::none(), "None"),
-        py::arg("floor").noconvert() = UrdfOptions{}.floor);
+        py::arg("floor").noconvert() = UrdfOptions{}.floor,
+        py::arg("visuals").noconvert() = UrdfOptions{}.visuals);
 }
 
 }  // namespace saltus::bindings

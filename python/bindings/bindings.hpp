@@ -26,6 +26,7 @@ void bind_lagrangian(py::module_& m);
 void bind_collision(py::module_& m);
 void bind_model(py::module_& m);
 void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
+void bind_visuals(py::module_& m);               ///< called by bind_model
 void bind_model_builder(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);

@@ -107,6 +107,24 @@ ModelError
     On sizes that are not finite and positive, and on a half-space of a link other than the root.
 )";
 
+constexpr auto add_visual = R"(Adds what a link looks like, or a part of it; it touches nothing.
+
+Parameters
+----------
+link : str
+shape : Shape or TriangleMesh
+X_LG : Pose
+    Its frame in the link's frame.
+rgba : array_like, shape (4,)
+    Red, green, blue and opacity, each in [0, 1].
+name : str
+
+Raises
+------
+ModelError
+    On sizes that are not finite and positive, a half-space, and numbers that are no colour.
+)";
+
 constexpr auto add_half_space =
     R"(Adds the solid below the plane normal.x = offset, fixed to the world.
 

@@ -28,6 +28,9 @@ using Joints =
 using Shapes = Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape,
                       &ShapeSpec::X_LG, &ShapeSpec::material, &ShapeSpec::contact>;
 
+using Visuals =
+    Listed<Visual, &Visual::link, &Visual::shape, &Visual::X_LG, &Visual::rgba, &Visual::name>;
+
 using Faces = Listed<Hull::Face, &Hull::Face::normal, &Hull::Face::offset, &Hull::Face::corners>;
 using Edges =
     Listed<Hull::Edge, &Hull::Edge::from, &Hull::Edge::to, &Hull::Edge::left, &Hull::Edge::right>;
@@ -51,10 +54,10 @@ Hull to_hull(const py::tuple& t) {
 py::tuple to_tuple(const ModelDescription& d) {
   const FilterSpec& f = d.filter;
   const MaterialSpec& m = d.materials;
-  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
-                        Joints::from(d.joints), Shapes::from(d.shapes),
-                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings);
+  return py::make_tuple(
+      d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
+      Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Visuals::from(d.visuals));
 }
 
 ModelDescription to_description(const py::tuple& t) {
@@ -72,6 +75,7 @@ ModelDescription to_description(const py::tuple& t) {
   d.filter = from_tuple<F, &F::links, &F::bodies, &F::groups, &F::group_of, &F::adjacent>(t[8]);
   d.materials = from_tuple<M, &M::of_link, &M::contact, &M::standard>(t[9]);
   d.warnings = t[10].cast<std::vector<std::string>>();
+  d.visuals = Visuals::to(t[11]);
   return d;
 }
 

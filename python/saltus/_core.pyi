@@ -58,6 +58,8 @@ __all__: list[str] = [
     "Trajectory",
     "TreeSolution",
     "TreeSolver",
+    "TriangleMesh",
+    "Visual",
     "classify_impact",
     "energies",
     "gap",
@@ -812,6 +814,83 @@ class Gaps:
         m arrays of shape (n_v, n_v)
         """
 
+class TriangleMesh:
+    """
+    A surface of triangles, for pictures: it touches nothing.
+
+    Its arrays are read-only.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        [m]
+    faces : array_like, shape (m, 3)
+        Indices of vertices, counterclockwise seen from outside.
+
+    Raises
+    ------
+    ModelError
+        Where a vertex is not finite, or a face names one that is not there.
+    """
+    def __getstate__(self) -> tuple[numpy.ndarray, numpy.ndarray]: ...
+    def __init__(
+        self,
+        vertices: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"],
+        faces: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 3]"],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def faces(self) -> numpy.ndarray:
+        """
+        indices of vertices, shape (m, 3)
+        """
+    @property
+    def vertices(self) -> numpy.ndarray:
+        """
+        [m] shape (n, 3)
+        """
+
+class Visual:
+    """
+    What a link looks like, or a part of it. It has no part in the motion.
+
+    `model.pose(q, visual.link) * visual.X_LG` is where it is; `model.visuals` lists those of a model.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def X_LG(self) -> Pose:
+        """
+        Pose of its frame in the link's
+        """
+    @property
+    def kind(self) -> str:
+        """
+        "box", "sphere", ..., "mesh"
+        """
+    @property
+    def link(self) -> str:
+        """
+        name of its link
+        """
+    @property
+    def name(self) -> str:
+        """
+        as the file has it, "" where it has none
+        """
+    @property
+    def rgba(self) -> typing.Annotated[list[float], "FixedSize(4)"]:
+        """
+        red, green, blue, opacity, each in [0, 1]
+        """
+    @property
+    def shape(
+        self,
+    ) -> Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex | TriangleMesh:
+        """
+        a TriangleMesh, or one of the classes of `Shape`
+        """
+
 class Model:
     """
     A tree of rigid bodies: frozen, checked, cheap to copy.
@@ -1222,6 +1301,11 @@ class Model:
     @property
     def velocity_names(self) -> list[str]: ...
     @property
+    def visuals(self) -> list[Visual]:
+        """
+        what its links look like, for pictures
+        """
+    @property
     def warnings(self) -> list[str]:
         """
         what was understood but is not used
@@ -1530,6 +1614,35 @@ class ModelBuilder:
         ------
         ModelError
             On sizes that are not finite and positive, and on a half-space of a link other than the root.
+        """
+    def add_visual(
+        self,
+        link: str,
+        shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex | TriangleMesh,
+        X_LG: Pose = ...,
+        *,
+        rgba: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ] = (0.7, 0.7, 0.7, 1),
+        name: str = "",
+    ) -> ModelBuilder:
+        """
+        Adds what a link looks like, or a part of it; it touches nothing.
+
+        Parameters
+        ----------
+        link : str
+        shape : Shape or TriangleMesh
+        X_LG : Pose
+            Its frame in the link's frame.
+        rgba : array_like, shape (4,)
+            Red, green, blue and opacity, each in [0, 1].
+        name : str
+
+        Raises
+        ------
+        ModelError
+            On sizes that are not finite and positive, a half-space, and numbers that are no colour.
         """
     def add_warning(self, text: str) -> ModelBuilder:
         """
@@ -2552,6 +2665,7 @@ def read_urdf(
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
+    visuals: bool = True,
 ) -> ModelBuilder:
     """
     Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -2576,6 +2690,8 @@ def read_urdf(
         The default contact, in place of the file's own.
     floor : bool
         Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
+    visuals : bool
+        Reads what links look like, `Model.visuals`.
 
     Returns
     -------

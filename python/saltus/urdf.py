@@ -56,6 +56,7 @@ def load_urdf(
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
+    visuals: bool = True,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -83,6 +84,8 @@ def load_urdf(
         nothing else sets.
     floor : bool
         True: adds a floor, the half-space z <= 0, unless the file has it.
+    visuals : bool
+        True: reads what links look like, `Model.visuals`, for pictures; meshes take time.
 
     Returns
     -------
@@ -110,5 +113,6 @@ def load_urdf(
         srdf=srdf,
         contact=contact,
         floor=floor,
+        visuals=visuals,
     )
     return builder.build()

@@ -78,6 +78,9 @@ class Assembly {
   std::vector<int> flying_links() const;
   bool is_unsaid(int i, int j) const;  // of two shapes
 
+  // visuals.cpp
+  void check_visuals() const;  // their links
+
   // pairs.cpp
   void add_shapes();
   void add_pairs();

@@ -127,6 +127,13 @@ ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shap
   return *this;
 }
 
+ModelBuilder& ModelBuilder::add_visual(const Visual& visual) {
+  check_visual(visual);
+  d_.visuals.push_back(visual);
+  d_.visuals.back().X_LG = checked_pose(visual.X_LG, "link", visual.link);
+  return *this;
+}
+
 ModelBuilder& ModelBuilder::add_half_space(const std::string& name, const Vec3& normal,
                                            double offset) {
   if (!normal.allFinite() || normal.stableNorm() == 0 || !std::isfinite(offset)) {

@@ -2,14 +2,15 @@
 
 #include "urdf/attributes.hpp"
 #include "urdf/extension.hpp"
-#include "urdf/mesh_file.hpp"
 #include "urdf/mesh_path.hpp"
 
 namespace saltus::reader {
 
-CollisionMeshes::CollisionMeshes(const Document& document, MeshFolders folders, MeshUse use)
+CollisionMeshes::CollisionMeshes(const Document& document, MeshFolders folders, MeshFiles& files,
+                                 MeshUse use)
     : document_(document),
       folders_(std::move(folders)),
+      files_(files),
       use_(use),
       use_of_link_(mesh_uses(document)) {}
 
@@ -48,7 +49,7 @@ std::shared_ptr<const Hull> CollisionMeshes::hull_of(const std::filesystem::path
   std::shared_ptr<const Hull>& hull =
       hulls_[{file.lexically_normal().string(), scale[0], scale[1], scale[2]}];
   if (hull != nullptr) return hull;
-  std::vector<Vec3> vertices = read_mesh(file);
+  std::vector<Vec3> vertices = files_.points(file);
   for (Vec3& v : vertices) v = v.cwiseProduct(scale);
   hull = std::make_shared<const Hull>(convex_hull(vertices, "has no convex hull"));
   used_.push_back({name, " (" + std::to_string(hull->vertices.size()) + " of its " +

@@ -11,6 +11,7 @@
 #include "saltus/collision/hull.hpp"
 #include "saltus/urdf/load_urdf.hpp"
 #include "urdf/document.hpp"
+#include "urdf/mesh_file.hpp"
 
 namespace saltus::reader {
 
@@ -23,7 +24,7 @@ struct MeshFolders {
 class CollisionMeshes {
  public:
   /// `use` holds for links of which the block `<saltus>` does not say otherwise.
-  CollisionMeshes(const Document& document, MeshFolders folders, MeshUse use);
+  CollisionMeshes(const Document& document, MeshFolders folders, MeshFiles& files, MeshUse use);
 
   /// The hull of this mesh of the link; null where the link's meshes are not used, or this one is
   /// not found. Meshes with the same file and scale have the same hull.
@@ -40,6 +41,7 @@ class CollisionMeshes {
 
   const Document& document_;
   MeshFolders folders_;
+  MeshFiles& files_;
   MeshUse use_;
   std::map<std::string, MeshUse> use_of_link_;
   std::map<Key, std::shared_ptr<const Hull>> hulls_;

@@ -13,6 +13,7 @@
 #include "urdf/parse.hpp"
 #include "urdf/rewrite.hpp"
 #include "urdf/srdf.hpp"
+#include "urdf/visuals.hpp"
 
 namespace saltus {
 namespace {
@@ -163,13 +164,14 @@ ModelBuilder read_urdf(const std::string& path_or_text, const UrdfOptions& optio
   builder.set_gravity(options.gravity).set_solver(options.solver).set_source(source.text);
   for (const std::string& warning : warnings) builder.add_warning(warning);
   const MeshFolders folders{source.folder, options.package_dirs};
-  CollisionMeshes meshes(document, folders, options.meshes);
+  MeshFiles files;
+  CollisionMeshes meshes(document, folders, files, options.meshes);
   located(document, [&] {
     if (!is_fixed) add_root_joint(document, options.root_joint, world, root, builder);
     add_links_and_joints(document, *parsed, meshes, world, builder);
   });
   meshes.warn(builder);
-  warn_of_visuals(document, folders, builder);
+  if (options.visuals) Visuals(document, folders, files).add(builder);
   add_extension(document, builder);
   if (options.contact) builder.set_default_contact(*options.contact);
   if (options.floor) add_floor(document, builder);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/model/visual.hpp"
 
 namespace saltus {
 
@@ -77,6 +78,7 @@ struct ModelDescription {
   std::vector<LinkSpec> links;  ///< the root first
   std::vector<JointSpec> joints;
   std::vector<ShapeSpec> shapes;
+  std::vector<Visual> visuals;
   FilterSpec filter;
   MaterialSpec materials;
   std::vector<std::string> warnings;

@@ -67,6 +67,7 @@ struct TreeSolution {
 };
 
 struct ModelDescription;
+struct Visual;
 
 struct ModelData {
   std::string name;
@@ -146,7 +147,8 @@ class SALTUS_EXPORT Model {
   ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
-  std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees
+  std::vector<TreeSolution> solvers() const;   ///< how steps solve its trees
+  const std::vector<Visual>& visuals() const;  ///< what its links look like
 
   /// A copy of this model without any pair: bodies pass through each other.
   Model without_collisions() const;

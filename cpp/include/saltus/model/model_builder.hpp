@@ -61,6 +61,8 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_joint(const JointSpec& joint);
   /// Shapes are named after their link, "#2" added for its second, and so on.
   ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
+  /// What a link looks like; see check_visual for what is refused.
+  ModelBuilder& add_visual(const Visual& visual);
   /// The solid below the plane normal.x = offset, fixed to the world; `name` as in pair names.
   ModelBuilder& add_half_space(const std::string& name, const Vec3& normal, double offset = 0);
   /// Link, shape and joint in one; nothing is added where it throws.

@@ -19,13 +19,13 @@
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
 // Collision meshes (STL, OBJ, DAE) become their convex hulls, and one warning names them; one tells
-// of those that are not found. A mesh that is there and cannot be read is an error.
+// of those that are not found. A mesh that is there and cannot be read is an error. Visuals are
+// kept for pictures; those that are missing or broken are left out, which one warning tells.
 //
 // Not used, and named in a warning: shapes without a gap function, elements and attributes that
-// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: visuals (but one warning
-// tells of their missing meshes), materials, transmissions, safety controllers, limits of
-// acceleration and jerk, and other programs' elements (gazebo, sensor, `ns:name`). The text itself
-// stays available as the model's `source`.
+// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: transmissions, safety
+// controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
+// `ns:name`). The text itself stays available as the model's `source`.
 #pragma once
 
 #include <optional>
@@ -60,6 +60,8 @@ struct UrdfOptions {
   std::optional<ContactProperties> contact = {};
   /// Adds the half-space z <= 0, as ModelBuilder::add_floor does, unless the file has it.
   bool floor = false;
+  /// Reads what links look like, Model::visuals; it takes time where they are meshes.
+  bool visuals = true;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space), into a
