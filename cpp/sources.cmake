@@ -63,6 +63,7 @@ set(SALTUS_SOURCES
   # model
   cpp/src/model/assembly.cpp
   cpp/src/model/configuration.cpp
+  cpp/src/model/description_checks.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
@@ -132,7 +133,9 @@ set(SALTUS_SOURCES
   cpp/src/urdf/document.cpp
   cpp/src/urdf/element_checks.cpp
   cpp/src/urdf/extension.cpp
+  cpp/src/urdf/encoding.cpp
   cpp/src/urdf/geometry.cpp
+  cpp/src/urdf/joint_elements.cpp
   cpp/src/urdf/load_urdf.cpp
   cpp/src/urdf/mesh_checks.cpp
   cpp/src/urdf/mesh_file.cpp
@@ -143,10 +146,12 @@ set(SALTUS_SOURCES
   cpp/src/urdf/schema.cpp
   cpp/src/urdf/schema_checks.cpp
   cpp/src/urdf/shape_elements.cpp
+  cpp/src/urdf/shape_inertias.cpp
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp
   cpp/src/urdf/visuals.cpp
+  cpp/src/urdf/warnings.cpp
 )
 
 set(SALTUS_BINDING_SOURCES

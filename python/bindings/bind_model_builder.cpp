@@ -118,6 +118,11 @@ void bind_parts(py::module_& m) {
       .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
       .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
 
+  py::native_enum<InertiaCheck>(m, "InertiaCheck", "enum.Enum", docs::inertia_check)
+      .value("strict", InertiaCheck::strict)
+      .value("lenient", InertiaCheck::lenient)
+      .value("as_given", InertiaCheck::as_given)
+      .finalize();
   py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
       .value("excluded", AdjacentLinks::excluded)
       .value("watched", AdjacentLinks::watched)
@@ -145,10 +150,13 @@ void bind_model_builder(py::module_& m) {
           self, docs::set_solver, py::arg("solver"))
       .def(
           "add_link",
-          [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia)
-              -> ModelBuilder& { return builder.add_link({name, inertia}); },
+          [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia,
+             const Choice<InertiaCheck>& check) -> ModelBuilder& {
+            return builder.add_link({name, inertia, to_enum(check, "check")});
+          },
           self, docs::add_link, py::arg("name"),
-          py::arg_v("inertia", BodyInertia{}, "BodyInertia()"))
+          py::arg_v("inertia", BodyInertia{}, "BodyInertia()"), py::kw_only(),
+          py::arg_v("check", InertiaCheck::strict, "InertiaCheck.strict"))
       .def("add_shape", &ModelBuilder::add_shape, self, docs::add_shape, py::arg("link"),
            py::arg("shape"), py::arg_v("X_LG", Pose{}, "Pose()"))
       .def(

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from saltus._core import (
     ContactProperties,
+    InertiaUse,
     JointType,
     MeshUse,
     Model,
@@ -57,6 +58,8 @@ def load_urdf(
     contact: ContactProperties | None = None,
     floor: bool = False,
     visuals: bool = True,
+    inertia: InertiaUse | str = InertiaUse.checked,
+    strict: bool = False,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -86,6 +89,13 @@ def load_urdf(
         True: adds a floor, the half-space z <= 0, unless the file has it.
     visuals : bool
         True: reads what links look like, `Model.visuals`, for pictures; meshes take time.
+    inertia : InertiaUse or str
+        `checked`: from the file, which must be possible, moments to 2 %; `as_given`: from the file,
+        whatever moments are; `from_shapes`: links without a mass are filled with water.
+    strict : bool
+        True: refuses what is wrong in the file and else read with a warning, as other readers do:
+        limits that are missing or crossed, `<mimic>` of what is fixed or not there, sizes of 0,
+        inertias that no body has, bytes that are no UTF-8.
 
     Returns
     -------
@@ -114,5 +124,7 @@ def load_urdf(
         contact=contact,
         floor=floor,
         visuals=visuals,
+        inertia=inertia,
+        strict=strict,
     )
     return builder.build()

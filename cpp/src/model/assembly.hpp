@@ -62,7 +62,8 @@ class Assembly {
 
   // masses.cpp
   void add_masses();
-  void check_moments();       // of what is welded together; warns of links impossible alone
+  void check_moments();  // of what is welded together; warns of links impossible alone
+  std::string reading_of(const LinkSpec& link, int joint) const;
   void check_masses() const;  // joints that move no mass
 
   // filter.cpp

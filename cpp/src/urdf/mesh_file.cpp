@@ -120,12 +120,16 @@ void unite(Triangles& mesh) {
 
 }  // namespace
 
+std::string unknown_format(const fs::path& file) {
+  const std::string format = ending(file);
+  if (format == ".stl" || format == ".obj" || format == ".dae") return "";
+  return "has an unknown format, \"" + format + "\"; known are .stl, .obj, .dae";
+}
+
 std::vector<MeshSurface> read_mesh(const fs::path& file) {
   constexpr std::uintmax_t most_bytes = std::uintmax_t{256} << 20;
-  const std::string format = ending(file);
-  if (format != ".stl" && format != ".obj" && format != ".dae") {
-    fail_mesh("has an unknown format, \"" + format + "\"; known are .stl, .obj, .dae");
-  }
+  const std::string format = ending(file), unknown = unknown_format(file);
+  if (!unknown.empty()) fail_mesh(unknown);
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) fail_mesh("cannot be opened: " + error.message());

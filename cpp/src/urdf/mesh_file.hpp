@@ -17,6 +17,9 @@ struct MeshSurface {
   Triangles triangles;  ///< vertices distinct; those that no triangle has are there too
 };
 
+/// "" where the ending of the file's name is known; else what a sentence about it goes on with.
+std::string unknown_format(const std::filesystem::path& file);
+
 /// The surfaces of an STL (binary or ASCII), OBJ or DAE file, in the file's axes: a DAE's `<unit>`
 /// and the transforms of its nodes are applied, its `<up_axis>` is not, as in RViz and other
 /// robotics tools. Bounds: 256 MiB, 10^7 vertices; of a DAE, see check_dae. Thread-safe.

@@ -17,7 +17,8 @@ std::vector<double> numbers(const XMLElement& element, const char* name, std::si
                             std::vector<double> otherwise) {
   const char* text = element.Attribute(name);
   if (text == nullptr) return otherwise;
-  const Numbers found = parse_numbers(text);
+  Numbers found = parse_numbers(text);
+  if (count >= 3 && found.values.size() > count) found.values.resize(count);  // as elsewhere
   const bool finite = std::all_of(found.values.begin(), found.values.end(),
                                   [](double x) { return std::isfinite(x); });
   if (found.bad.empty() && found.values.size() == count && finite) return found.values;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "saltus/model/description.hpp"
@@ -100,16 +101,34 @@ class SALTUS_EXPORT ModelBuilder {
   void check() const;  ///< the checks of build() alone
   Model build() const;
 
+  /// The description once its local checks are made again: for what comes from elsewhere.
+  /// @throws ModelError as the add_ and set_ that it was made by would.
+  static ModelDescription checked(const ModelDescription& description);
+
   const std::vector<std::string>& warnings() const { return d_.warnings; }
   const ModelDescription& description() const { return d_; }
 
  private:
+  /// The names of the first so many: adding one is then no walk over all.
+  struct KnownNames {
+    std::unordered_set<std::string> names;
+    std::size_t count = 0;
+  };
+  template <class Items>
+  static bool is_taken(const Items& items, const std::string& name, KnownNames& known);
+  template <class Items>
+  static void check_new_name(const Items& items, const std::string& element,
+                             const std::string& name, KnownNames& known);
+
   ModelDescription d_;
+  KnownNames links_, joints_;
 };
 
 /// @throws ModelError where no link can have this mass or inertia: negative mass, not symmetric,
-/// an inertia without mass. Principal moments are judged by build(), which knows what is welded to
-/// what: many robots' files have links that are impossible alone (1e-6 kg as a place holder).
-SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
+/// an inertia without mass (unless the check is lenient, then build() looks at it). Principal
+/// moments are judged by build(), which knows what is welded to what: many robots' files have links
+/// that are impossible alone (1e-6 kg as a place holder).
+SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link,
+                                 InertiaCheck check = InertiaCheck::strict);
 
 }  // namespace saltus
