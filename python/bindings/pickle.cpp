@@ -1,5 +1,7 @@
 #include "pickle.hpp"
 
+#include "saltus/model/model_builder.hpp"
+
 namespace saltus::bindings {
 namespace {
 
@@ -21,7 +23,7 @@ struct Listed {
 };
 
 using J = JointSpec;
-using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia>;
+using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia, &LinkSpec::check>;
 using Joints =
     Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
            &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction>;
@@ -43,12 +45,34 @@ py::tuple to_tuple(const Hull& hull) {
 }
 
 Hull to_hull(const py::tuple& t) {
-  return {t[0].cast<std::vector<Vec3>>(),
-          Faces::to(t[1]),
-          Edges::to(t[2]),
-          t[3].cast<std::vector<int>>(),
-          t[4].cast<std::vector<int>>(),
-          t[5].cast<Vec3>()};
+  Hull hull{t[0].cast<std::vector<Vec3>>(),
+            Faces::to(t[1]),
+            Edges::to(t[2]),
+            t[3].cast<std::vector<int>>(),
+            t[4].cast<std::vector<int>>(),
+            t[5].cast<Vec3>()};
+  try {  // its indices, above all
+    check_visual({"", Convex{std::make_shared<const Hull>(hull)}});
+  } catch (const ModelError&) {
+    throw ModelError("a pickle of a Convex is ruined: its parts do not fit together");
+  }
+  return hull;
+}
+
+void use_one_protocol(const py::module_& m) {
+  const py::object make = py::module_::import("copyreg").attr("__newobj__");
+  for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {
+    if (Py_TYPE(member.ptr()) != Py_TYPE(m.attr("Pose").ptr())) continue;
+    const bool has_state = member.attr("__dict__").contains("__getstate__");
+    const auto reduce = [make, has_state](const py::object& self) -> py::tuple {
+      const py::object kind = py::type::of(self);
+      if (has_state) return py::make_tuple(make, py::make_tuple(kind), self.attr("__getstate__")());
+      throw py::type_error("cannot pickle '" + py::str(kind.attr("__name__")).cast<std::string>() +
+                           "' object");
+    };
+    member.attr("__reduce__") =
+        py::cpp_function(reduce, py::name("__reduce__"), py::is_method(member));
+  }
 }
 
 py::tuple to_tuple(const ModelDescription& d) {
@@ -76,7 +100,7 @@ ModelDescription to_description(const py::tuple& t) {
   d.materials = from_tuple<M, &M::of_link, &M::contact, &M::standard>(t[9]);
   d.warnings = t[10].cast<std::vector<std::string>>();
   d.visuals = Visuals::to(t[11]);
-  return d;
+  return ModelBuilder::checked(d);
 }
 
 }  // namespace saltus::bindings
