@@ -8,33 +8,19 @@ may cancel to any smallness.
 from __future__ import annotations
 
 import functools
-import importlib.metadata
 import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
+from robot_files import robots_folder
 
 import saltus
 
 NEEDED = "Pinocchio is not installed: pip install 'saltus[robots]'"
 pin = pytest.importorskip("pinocchio", reason=NEEDED)
 TOLERANCE = 1e-12
-
-# What is wrong with files of example-robot-data, and which option reads them all the same.
-REFUSED = {
-    "romeo": ("moves no mass", {"inertia": "from_shapes"}),
-    "romeo_small": ("that no body can have", {"inertia": "as_given"}),
-    "ur3": ("has no <link>", None),
-}
-# What is wrong and read with a warning.
-FLAWED = {
-    "alex_psyonic_hands": 'mimics joint "index_q1", which does not exist',
-    "bolt": "has an inertia but no mass",
-    "romeo_laas_small": "are off by less than 2 %",
-}
 
 
 @dataclass(frozen=True)
@@ -72,14 +58,6 @@ ROBOTS = {
         srdf="ur_description/srdf/ur5.srdf",
     ),
 }
-
-
-def robots_folder() -> Path:
-    try:
-        data = importlib.metadata.distribution("example-robot-data")
-    except importlib.metadata.PackageNotFoundError:
-        pytest.skip("example-robot-data is not installed: pip install 'saltus[robots]'")
-    return Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots")).resolve()
 
 
 def load_anew(name: str, **options) -> saltus.Model:
@@ -225,26 +203,6 @@ def test_srdf_names_its_links(name):
     model = load_anew(name, srdf=robots_folder() / ROBOTS[name].srdf)
     assert not [text for text in model.warnings if "has not" in text]
     assert set(model.pair_names) <= set(load(name).pair_names)
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::saltus.ModelWarning")
-def test_every_robot_loads_with_its_meshes():
-    folder = robots_folder()
-    paths = sorted(folder.rglob("*.urdf"))
-    assert len(paths) > 60
-    for path in paths:
-        options = {"package_dirs": [folder, folder.parent], "visuals": False}
-        if path.stem in REFUSED:
-            words, way_out = REFUSED[path.stem]
-            with pytest.raises(saltus.ModelError, match=words):
-                saltus.load_urdf(path, **options)
-            if way_out is None:
-                continue
-            options |= way_out
-        model = saltus.load_urdf(path, **options)
-        if path.stem in FLAWED:
-            assert any(FLAWED[path.stem] in text for text in model.warnings)
 
 
 @each_robot
