@@ -69,6 +69,7 @@ set(SALTUS_SOURCES
   cpp/src/model/changes.cpp
   cpp/src/model/configuration.cpp
   cpp/src/model/dynamics.cpp
+  cpp/src/model/description_checks.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/force_verbs.cpp
   cpp/src/model/joint_forces.cpp
@@ -85,6 +86,7 @@ set(SALTUS_SOURCES
   cpp/src/model/solids.cpp
   cpp/src/model/topology.cpp
   cpp/src/model/unsaid.cpp
+  cpp/src/model/visuals.cpp
   # variational
   cpp/src/variational/terms/options.cpp
   cpp/src/variational/law/cascade.cpp
@@ -145,8 +147,11 @@ set(SALTUS_SOURCES
   cpp/src/urdf/document.cpp
   cpp/src/urdf/element_checks.cpp
   cpp/src/urdf/extension.cpp
+  cpp/src/urdf/encoding.cpp
   cpp/src/urdf/geometry.cpp
+  cpp/src/urdf/joint_elements.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/mesh_checks.cpp
   cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
   cpp/src/urdf/numbers.cpp
@@ -155,9 +160,12 @@ set(SALTUS_SOURCES
   cpp/src/urdf/schema.cpp
   cpp/src/urdf/schema_checks.cpp
   cpp/src/urdf/shape_elements.cpp
+  cpp/src/urdf/shape_inertias.cpp
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
   cpp/src/urdf/tree_checks.cpp
+  cpp/src/urdf/visuals.cpp
+  cpp/src/urdf/warnings.cpp
 )
 
 set(SALTUS_BINDING_SOURCES
@@ -180,6 +188,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_forces.cpp
   python/bindings/bind_motion.cpp
+  python/bindings/bind_visuals.cpp
   python/bindings/pickle.cpp
   # urdf
   python/bindings/bind_urdf.cpp

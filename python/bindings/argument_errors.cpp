@@ -16,6 +16,7 @@ using Method = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*)
 
 Method dispatcher = nullptr;
 PyTypeObject* numpy_bool = nullptr;
+PyTypeObject* metaclass = nullptr;  ///< of all classes of pybind11
 /// What a method is called with as its self -> the function, kept alive.
 std::unordered_map<PyObject*, PyObject*> function_of_self;
 
@@ -66,7 +67,25 @@ bool refuse_truth_values(PyObject* self, PyObject* const* arguments, Py_ssize_t 
   return false;
 }
 
+/// Sets a TypeError and returns true where an argument was never made: `Model.__new__(Model)` alone
+/// gives an object without a value, which pybind11 would make up.
+bool refuse_empty(PyObject* const* arguments, Py_ssize_t count, PyObject* names) {
+  if (names != nullptr) count += PyTuple_GET_SIZE(names);
+  for (Py_ssize_t i = 0; i < count; ++i) {
+    if (Py_TYPE(Py_TYPE(arguments[i])) != metaclass) continue;
+    const auto& instance = *reinterpret_cast<py::detail::instance*>(arguments[i]);
+    if (!instance.simple_layout || instance.simple_value_holder[0] != nullptr) continue;
+    PyErr_Format(PyExc_TypeError, "this %s was never made: its __init__ was not called",
+                 Py_TYPE(arguments[i])->tp_name);
+    return true;
+  }
+  return false;
+}
+
+template <bool makes>
 PyObject* dispatch(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* names) {
+  const Py_ssize_t made = makes && count > 0 ? 1 : 0;  // by __init__ and __setstate__: self
+  if (refuse_empty(arguments + made, count - made, names)) return nullptr;
   if (refuse_truth_values(self, arguments, count, names)) return nullptr;
   PyObject* const result = dispatcher(self, arguments, count, names);
   if (result != nullptr || PyErr_ExceptionMatches(PyExc_TypeError) == 0) return result;
@@ -98,12 +117,22 @@ py::object function_of(const py::handle& member) {
 }
 
 void explain_errors_of(const py::handle& member) {
+  if (PyObject_TypeCheck(member.ptr(), &PyProperty_Type) != 0) {
+    for (const char* part : {"fget", "fset"}) {
+      const py::object function = member.attr(part);
+      if (!function.is_none()) explain_errors_of(function);
+    }
+    return;
+  }
   const py::object function = function_of(member);
   if (!PyCFunction_CheckExact(function.ptr())) return;
   PyMethodDef* const method = method_of(function);
   if (to_method(method->ml_meth) != dispatcher) return;
   function_of_self[PyCFunction_GET_SELF(function.ptr())] = function.inc_ref().ptr();
-  method->ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&dispatch));
+  const std::string name = function.attr("__name__").cast<std::string>();
+  const bool makes = name == "__init__" || name == "__setstate__";
+  const Method method_of_ours = makes ? &dispatch<true> : &dispatch<false>;
+  method->ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method_of_ours));
 }
 
 }  // namespace
@@ -114,6 +143,7 @@ void explain_errors(const py::module_& m) {
   // pybind11's own way to be called, which another version may change: its words are used then.
   if (method->ml_flags != (METH_FASTCALL | METH_KEYWORDS)) return;
   dispatcher = to_method(method->ml_meth);
+  metaclass = Py_TYPE(m.attr("Pose").ptr());
   numpy_bool = reinterpret_cast<PyTypeObject*>(
       py::object(py::dtype::of<bool>().attr("type")).release().ptr());
   for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {

@@ -132,6 +132,11 @@ void set_joint(const py::handle& value, const std::string& entry, const JointInf
                    numbers.kind, name);
 }
 
+/// Half of a surrogate pair is a str to Python, and no text that can be written.
+std::string to_text(const py::handle& x) {
+  return x.attr("encode")("utf-8", "backslashreplace").cast<std::string>();
+}
+
 void set_entry(const std::string& name, const py::handle& value, const std::string& what,
                const Numbers& numbers, const Model& model, VecX& out, std::vector<char>& is_set) {
   const std::string entry = what + "[\"" + name + "\"]";
@@ -159,7 +164,7 @@ VecX from_mapping(const py::object& x, const Model& model, const std::string& wh
       throw ModelError(what + " has the key " + show(key) + "; keys are names of " +
                        numbers.plural + ": " + list_names(numbers.names));
     }
-    set_entry(key.cast<std::string>(), value, what, numbers, model, out, is_set);
+    set_entry(to_text(key), value, what, numbers, model, out, is_set);
   }
   for (std::size_t i = 0; i < is_set.size(); ++i) {
     const std::string& name = numbers.names[i];
@@ -251,17 +256,20 @@ py::object to_member(const py::handle& x, const py::handle& kind, const char* wh
 int to_index(const NameOrIndex& item, const std::vector<std::string>& names, const char* what) {
   const int n = static_cast<int>(names.size());
   if (py::isinstance<py::str>(item)) {
-    const auto name = item.cast<std::string>();
+    const std::string name = to_text(item);
     for (int i = 0; i < n; ++i) {
       if (names[i] == name) return i;
     }
   } else if (PyIndex_Check(item.ptr())) {
-    const auto i = py::cast<py::ssize_t>(item);
-    if (i >= -n && i < n) return static_cast<int>(i < 0 ? i + n : i);
+    const py::ssize_t i =
+        PyNumber_AsSsize_t(item.ptr(), nullptr);        // the greatest, where it is more
+    const bool is_index = PyErr_Occurred() == nullptr;  // an array of several has none
+    PyErr_Clear();
+    if (is_index && i >= -n && i < n) return static_cast<int>(i < 0 ? i + n : i);
   }
   throw ModelError(
       "no " + std::string(what) + " " + show(item) + "; there are " + list_names(names), what,
-      py::str(item));
+      to_text(py::str(item)));
 }
 
 }  // namespace saltus::bindings

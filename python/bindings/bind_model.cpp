@@ -133,6 +133,7 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("coordinates",
                              [](const Model& m) -> const auto& { return m->coordinates; })
       .def_property_readonly("shapes", [](const Model& m) -> const auto& { return m->shapes; })
+      .def_property_readonly("visuals", &Model::visuals, "what its links look like, for pictures")
       .def_property_readonly("pairs", &pairs, "a list of the pairs; at most 10^6 of them")
       .def_property_readonly(
           "n_pairs", [](const Model& m) { return m->pairs.size(); }, "number of pairs")
@@ -239,6 +240,7 @@ void bind_model(py::module_& m) {
   bind_links(m);
   bind_tree_solution(m);
   bind_gaps(m);
+  bind_visuals(m);
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);
   bind_copies(c);

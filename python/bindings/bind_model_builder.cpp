@@ -105,8 +105,38 @@ void bind_materials(py::class_<ModelBuilder>& c) {
           py::arg("friction") = ContactProperties{}.friction);
 }
 
+void bind_links(py::class_<ModelBuilder>& c) {
+  c.def(
+       "add_link",
+       [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia,
+          const Choice<InertiaCheck>& check) -> ModelBuilder& {
+         return builder.add_link({name, inertia, to_enum(check, "check")});
+       },
+       self, docs::add_link, py::arg("name"), py::arg_v("inertia", BodyInertia{}, "BodyInertia()"),
+       py::kw_only(), py::arg_v("check", InertiaCheck::strict, "InertiaCheck.strict"))
+      .def("add_shape", &ModelBuilder::add_shape, self, docs::add_shape, py::arg("link"),
+           py::arg("shape"), py::arg_v("X_LG", Pose{}, "Pose()"))
+      .def(
+          "add_visual",
+          [](ModelBuilder& builder, const std::string& link,
+             const std::variant<Shape, TriangleMesh>& shape, const Pose& X_LG, const Rgba& rgba,
+             const std::string& name) -> ModelBuilder& {
+            return builder.add_visual({link, shape, X_LG, rgba, name});
+          },
+          self, docs::add_visual, py::arg("link"), py::arg("shape"),
+          py::arg_v("X_LG", Pose{}, "Pose()"), py::kw_only(),
+          py::arg_v("rgba", Visual::grey, "(0.7, 0.7, 0.7, 1)"), py::arg("name") = "")
+      .def("add_half_space", &ModelBuilder::add_half_space, self, docs::add_half_space,
+           py::arg("name"), py::arg("normal"), py::arg("offset") = 0.0);
+}
+
 /// What a builder's methods take.
 void bind_parts(py::module_& m) {
+  py::native_enum<InertiaCheck>(m, "InertiaCheck", "enum.Enum", docs::inertia_check)
+      .value("strict", InertiaCheck::strict)
+      .value("lenient", InertiaCheck::lenient)
+      .value("as_given", InertiaCheck::as_given)
+      .finalize();
   py::native_enum<AdjacentLinks>(m, "AdjacentLinks", "enum.Enum", docs::adjacent_links)
       .value("excluded", AdjacentLinks::excluded)
       .value("watched", AdjacentLinks::watched)
@@ -123,6 +153,7 @@ void bind_model_builder(py::module_& m) {
   py::class_<ModelBuilder> c(m, "ModelBuilder", docs::model_builder);
   c.def(py::init<std::string, std::string>(), py::arg("name") = "model", py::arg("root") = "world");
   bind_add_joint(c);
+  bind_links(c);
   bind_materials(c);
   bind_scenes(c);
   bind_actuators(c);
@@ -135,16 +166,6 @@ void bind_model_builder(py::module_& m) {
             return builder.set_solver(to_enum(solver, "solver"));
           },
           self, docs::set_solver, py::arg("solver"))
-      .def(
-          "add_link",
-          [](ModelBuilder& builder, const std::string& name, const BodyInertia& inertia)
-              -> ModelBuilder& { return builder.add_link({name, inertia}); },
-          self, docs::add_link, py::arg("name"),
-          py::arg_v("inertia", BodyInertia{}, "BodyInertia()"))
-      .def("add_shape", &ModelBuilder::add_shape, self, docs::add_shape, py::arg("link"),
-           py::arg("shape"), py::arg_v("X_LG", Pose{}, "Pose()"))
-      .def("add_half_space", &ModelBuilder::add_half_space, self, docs::add_half_space,
-           py::arg("name"), py::arg("normal"), py::arg("offset") = 0.0)
       .def("add_exclusion", &ModelBuilder::add_exclusion, self, docs::add_exclusion,
            py::arg("link_a"), py::arg("link_b"))
       .def("add_body_exclusion", &ModelBuilder::add_body_exclusion, self, docs::add_body_exclusion,

@@ -33,6 +33,7 @@ void bind_model(py::module_& m);
 void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
 void bind_links(py::module_& m);                 ///< called by bind_model
 void bind_dynamics(py::module_& m);
+void bind_visuals(py::module_& m);               ///< called by bind_model
 void bind_model_builder(py::module_& m);
 void bind_joint_effects(py::module_& m);              ///< called by bind_model
 void bind_model_forces(py::class_<Model>& c);         ///< likewise

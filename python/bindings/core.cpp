@@ -1,5 +1,6 @@
 // The extension module saltus._core.
 #include "bindings.hpp"
+#include "pickle.hpp"
 
 PYBIND11_MODULE(_core, m) {
   using namespace saltus::bindings;
@@ -19,5 +20,6 @@ PYBIND11_MODULE(_core, m) {
   bind_stepper(m);
   bind_rollout(m);
   bind_batch(m);
+  use_one_protocol(m);
   explain_errors(m);
 }

@@ -54,6 +54,8 @@ Parameters
 name : str
 inertia : BodyInertia
     In the link's frame; without it the link has no mass.
+check : InertiaCheck or str
+    How far it may be from what a body can have.
 
 Raises
 ------
@@ -105,6 +107,31 @@ Raises
 ------
 ModelError
     On sizes that are not finite and positive, and on a half-space of a link other than the root.
+)";
+
+constexpr auto inertia_check = R"(How far the inertia of a link may be from what a body can have.
+
+strict: not at all. lenient, as of files: with a warning, moments that are possible once none is
+changed by more than 2 % of the greatest, and moments without a mass of what is welded or fixed.
+as_given: moments may be anything.
+)";
+
+constexpr auto add_visual = R"(Adds what a link looks like, or a part of it; it touches nothing.
+
+Parameters
+----------
+link : str
+shape : Shape or TriangleMesh
+X_LG : Pose
+    Its frame in the link's frame.
+rgba : array_like, shape (4,)
+    Red, green, blue and opacity, each in [0, 1].
+name : str
+
+Raises
+------
+ModelError
+    On sizes that are not finite and positive, a half-space, and numbers that are no colour.
 )";
 
 constexpr auto add_half_space =

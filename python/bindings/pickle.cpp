@@ -1,5 +1,7 @@
 #include "pickle.hpp"
 
+#include "saltus/model/model_builder.hpp"
+
 namespace saltus::bindings {
 namespace {
 
@@ -21,7 +23,7 @@ struct Listed {
 };
 
 using J = JointSpec;
-using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia>;
+using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia, &LinkSpec::check>;
 using Joints =
     Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
            &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction, &J::armature,
@@ -31,6 +33,9 @@ using Actuators = Listed<A, &A::name, &A::joints, &A::gain, &A::bias, &A::bias_l
                          &A::effort, &A::lower, &A::upper>;
 using Shapes = Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape,
                       &ShapeSpec::X_LG, &ShapeSpec::material, &ShapeSpec::contact>;
+
+using Visuals =
+    Listed<Visual, &Visual::link, &Visual::shape, &Visual::X_LG, &Visual::rgba, &Visual::name>;
 
 using Faces = Listed<Hull::Face, &Hull::Face::normal, &Hull::Face::offset, &Hull::Face::corners>;
 using Edges =
@@ -44,12 +49,34 @@ py::tuple to_tuple(const Hull& hull) {
 }
 
 Hull to_hull(const py::tuple& t) {
-  return {t[0].cast<std::vector<Vec3>>(),
-          Faces::to(t[1]),
-          Edges::to(t[2]),
-          t[3].cast<std::vector<int>>(),
-          t[4].cast<std::vector<int>>(),
-          t[5].cast<Vec3>()};
+  Hull hull{t[0].cast<std::vector<Vec3>>(),
+            Faces::to(t[1]),
+            Edges::to(t[2]),
+            t[3].cast<std::vector<int>>(),
+            t[4].cast<std::vector<int>>(),
+            t[5].cast<Vec3>()};
+  try {  // its indices, above all
+    check_visual({"", Convex{std::make_shared<const Hull>(hull)}});
+  } catch (const ModelError&) {
+    throw ModelError("a pickle of a Convex is ruined: its parts do not fit together");
+  }
+  return hull;
+}
+
+void use_one_protocol(const py::module_& m) {
+  const py::object make = py::module_::import("copyreg").attr("__newobj__");
+  for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {
+    if (Py_TYPE(member.ptr()) != Py_TYPE(m.attr("Pose").ptr())) continue;
+    const bool has_state = member.attr("__dict__").contains("__getstate__");
+    const auto reduce = [make, has_state](const py::object& self) -> py::tuple {
+      const py::object kind = py::type::of(self);
+      if (has_state) return py::make_tuple(make, py::make_tuple(kind), self.attr("__getstate__")());
+      throw py::type_error("cannot pickle '" + py::str(kind.attr("__name__")).cast<std::string>() +
+                           "' object");
+    };
+    member.attr("__reduce__") =
+        py::cpp_function(reduce, py::name("__reduce__"), py::is_method(member));
+  }
 }
 
 py::tuple to_tuple(const ModelDescription& d) {
@@ -58,7 +85,8 @@ py::tuple to_tuple(const ModelDescription& d) {
   return py::make_tuple(
       d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
       Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators));
+      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators),
+      Visuals::from(d.visuals));
 }
 
 ModelDescription to_description(const py::tuple& t) {
@@ -77,7 +105,8 @@ ModelDescription to_description(const py::tuple& t) {
   d.materials = from_tuple<M, &M::of_link, &M::contact, &M::standard>(t[9]);
   d.warnings = t[10].cast<std::vector<std::string>>();
   d.actuators = Actuators::to(t[11]);
-  return d;
+  d.visuals = Visuals::to(t[12]);
+  return ModelBuilder::checked(d);
 }
 
 }  // namespace saltus::bindings

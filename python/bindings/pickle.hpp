@@ -32,6 +32,10 @@ auto pickle_fields() {
 py::tuple to_tuple(const Hull& hull);
 Hull to_hull(const py::tuple& tuple);
 
+/// Has all classes of the module pickled in one way: in that of protocols 0 and 1 objects are made
+/// by their base class, at which pybind11 ends the interpreter.
+void use_one_protocol(const py::module_& m);
+
 py::tuple to_tuple(const ModelDescription& description);
 ModelDescription to_description(const py::tuple& tuple);
 

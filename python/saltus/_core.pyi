@@ -15,8 +15,6 @@ __all__: list[str] = [
     "BatchTrajectory",
     "BodyInertia",
     "Box",
-    "BuilderJoint",
-    "BuilderLink",
     "Capsule",
     "ContactImpulse",
     "ContactProperties",
@@ -25,7 +23,6 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
-    "Frames",
     "FrictionOutcome",
     "Gap",
     "Gaps",
@@ -38,6 +35,8 @@ __all__: list[str] = [
     "ImpactOutcome",
     "ImpactOutcomes",
     "ImpactProblem",
+    "InertiaCheck",
+    "InertiaUse",
     "JammedError",
     "JointInfo",
     "JointType",
@@ -61,6 +60,8 @@ __all__: list[str] = [
     "Trajectory",
     "TreeSolution",
     "TreeSolver",
+    "TriangleMesh",
+    "Visual",
     "classify_impact",
     "energies",
     "gap",
@@ -185,6 +186,7 @@ class Pose:
     def __mul__(
         self, p_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     def inverse(self) -> Pose:
@@ -246,6 +248,7 @@ class BodyInertia:
             (0, 0, 0),
         ),
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     def seen_from(self, X_PB: Pose) -> BodyInertia:
@@ -297,6 +300,7 @@ class LagrangianPartials:
     and `q[j]`. Johnson and Murphey, "Discrete and continuous mechanics for tree representations of
     mechanical systems", ICRA 2008, with composite quantities in place of sums over bodies.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def L_q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -335,6 +339,7 @@ class Sphere:
     """
     def __getstate__(self) -> tuple[float]: ...
     def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -353,6 +358,7 @@ class Capsule:
         radius: typing.SupportsFloat | typing.SupportsIndex,
         half_length: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -376,6 +382,7 @@ class Box:
     def __init__(
         self, half: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -394,6 +401,7 @@ class Cylinder:
         radius: typing.SupportsFloat | typing.SupportsIndex,
         half_length: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -413,6 +421,7 @@ class HalfSpace:
     """
     def __getstate__(self) -> tuple[()]: ...
     def __init__(self) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
 
@@ -426,6 +435,7 @@ class Ellipsoid:
     def __init__(
         self, radii: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -452,6 +462,7 @@ class Convex:
     def __init__(
         self, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -476,6 +487,7 @@ class Gap:
 
     `p_WA - p_WB == phi * n_W` and `|n_W| == 1`; `n_W` points from b to a; `phi < 0` is penetration.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def F_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
@@ -507,12 +519,8 @@ class PlacedShape:
     """
     A shape of a model and the joint frame that carries it.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
-    @property
-    def X_LG(self) -> Pose:
-        """
-        Pose of its frame in its link's
-        """
     @property
     def link(self) -> int:
         """
@@ -533,6 +541,7 @@ class Pair:
     """
     A gap that is watched, of two shapes of a model or of parts of them.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def a(self) -> int:
@@ -581,6 +590,7 @@ class ContactProperties:
         restitution: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -615,6 +625,7 @@ class State:
         q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -651,12 +662,27 @@ class JointType(enum.Enum):
     revolute = ...
     spherical = ...
 
+class Link:
+    """
+    A rigid link of a model.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg] its own, without links that are fixed to it
+        """
+    @property
+    def name(self) -> str: ...
+
 class Coordinate:
     """
     A number of q and what the model's file says of it.
 
     Limits, damping and friction are kept for the user; the stepper does not apply them.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def damping(self) -> float:
@@ -704,81 +730,12 @@ class Coordinate:
         [rad/s | m/s] limit, inf where none
         """
 
-class Mimic:
-    """
-    This joint's displacement is `multiplier * (displacement of joint) + offset`.
-
-    Parameters
-    ----------
-    joint : str
-        Name of the joint to follow; both have one coordinate.
-    multiplier : float
-    offset : float
-        [rad | m]
-    """
-    def __getstate__(self) -> tuple: ...
-    def __init__(
-        self,
-        joint: str,
-        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-    ) -> None: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, arg0: tuple) -> None: ...
-    @property
-    def joint(self) -> str: ...
-    @property
-    def multiplier(self) -> float: ...
-    @property
-    def offset(self) -> float:
-        """
-        [rad | m]
-        """
-
-class Link:
-    """
-    A rigid link of a model.
-
-    It stands for its index wherever one is taken.
-    """
-    def __index__(self) -> int: ...
-    def __repr__(self) -> str: ...
-    @property
-    def index(self) -> int:
-        """
-        in the model's `links`
-        """
-    @property
-    def inertia(self) -> BodyInertia:
-        """
-        BodyInertia: mass [kg], centre of mass c_J [m] and inertia I_J [kg m^2] about it, in the link's frame
-        """
-    @property
-    def mass(self) -> float:
-        """
-        [kg] its own, without links that are fixed to it
-        """
-    @property
-    def name(self) -> str: ...
-
 class JointInfo:
     """
-    A joint of a model, as its author described it.
-
-    It stands for its index in `joints` wherever one is taken.
+    A joint of a model, as its author named it.
     """
-    def __index__(self) -> int: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
-    @property
-    def X_PJ(self) -> Pose:
-        """
-        Pose of the joint's frame (the child link's at displacement 0) in the parent's
-        """
-    @property
-    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
-        """
-        unit, in the joint's frame, shape (3,); None without one
-        """
     @property
     def child(self) -> str:
         """
@@ -790,21 +747,6 @@ class JointInfo:
         indices in q of those that move it
         """
     @property
-    def index(self) -> int:
-        """
-        in the model's `joints`
-        """
-    @property
-    def lower(self) -> float:
-        """
-        [rad | m] limit, -inf where there is none
-        """
-    @property
-    def mimic(self) -> Mimic | None:
-        """
-        Mimic: which joint it follows; None for all others
-        """
-    @property
     def name(self) -> str: ...
     @property
     def parent(self) -> str:
@@ -812,17 +754,7 @@ class JointInfo:
         name of the parent link
         """
     @property
-    def pitch(self) -> float:
-        """
-        [m/rad] of a helical joint
-        """
-    @property
     def type(self) -> JointType: ...
-    @property
-    def upper(self) -> float:
-        """
-        [rad | m] limit, inf where there is none
-        """
     @property
     def velocities(self) -> list[int]:
         """
@@ -836,6 +768,7 @@ class TreeSolution:
     Equal trees (pendulums of a cradle, bodies that fly alone) may be solved side by side, in lanes of
     vector instructions; `trees` says how many.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def depth(self) -> int:
@@ -865,6 +798,7 @@ class Gaps:
     `p_WA - p_WB == phi * normal` for every pair. Arrays are read-only views, no copies.
     """
     def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def names(self) -> list[str]:
@@ -902,6 +836,85 @@ class Gaps:
         m arrays of shape (n_v, n_v)
         """
 
+class TriangleMesh:
+    """
+    A surface of triangles, for pictures: it touches nothing.
+
+    Its arrays are read-only.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        [m]
+    faces : array_like, shape (m, 3)
+        Indices of vertices, counterclockwise seen from outside.
+
+    Raises
+    ------
+    ModelError
+        Where a vertex is not finite, or a face names one that is not there.
+    """
+    def __getstate__(self) -> tuple[numpy.ndarray, numpy.ndarray]: ...
+    def __init__(
+        self,
+        vertices: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"],
+        faces: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 3]"],
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def faces(self) -> numpy.ndarray:
+        """
+        indices of vertices, shape (m, 3)
+        """
+    @property
+    def vertices(self) -> numpy.ndarray:
+        """
+        [m] shape (n, 3)
+        """
+
+class Visual:
+    """
+    What a link looks like, or a part of it. It has no part in the motion.
+
+    `model.pose(q, visual.link) * visual.X_LG` is where it is; `model.visuals` lists those of a model.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def X_LG(self) -> Pose:
+        """
+        Pose of its frame in the link's
+        """
+    @property
+    def kind(self) -> str:
+        """
+        "box", "sphere", ..., "mesh"
+        """
+    @property
+    def link(self) -> str:
+        """
+        name of its link
+        """
+    @property
+    def name(self) -> str:
+        """
+        as the file has it, "" where it has none
+        """
+    @property
+    def rgba(self) -> typing.Annotated[list[float], "FixedSize(4)"]:
+        """
+        red, green, blue, opacity, each in [0, 1]
+        """
+    @property
+    def shape(
+        self,
+    ) -> Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex | TriangleMesh:
+        """
+        a TriangleMesh, or one of the classes of `Shape`
+        """
+
 class Model:
     """
     A tree of rigid bodies: frozen, checked, cheap to copy.
@@ -915,133 +928,9 @@ class Model:
     def __copy__(self) -> Model: ...
     def __deepcopy__(self, memo: typing.Any) -> Model: ...
     def __getstate__(self) -> tuple[tuple, bool]: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
-    def __str__(self) -> str: ...
-    def _repr_html_(self) -> str: ...
-    def accelerations(
-        self,
-        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Accelerations: forward dynamics.
-
-        Solves M(q) a + c(q, v) = forces + gravity_forces(q), c the forces of motion alone. Contacts,
-        limits, dampers and motors do not act. O(n) for deep trees.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
-            [rad/s | m/s] None: at rest.
-        forces : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values, optional
-            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
-
-        Returns
-        -------
-        numpy.ndarray, shape (n_v,) or (rows, n_v)
-            [rad/s^2 | m/s^2] the rates of v.
-
-        Raises
-        ------
-        ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
-        StepError
-            Where the mass matrix is singular.
-        """
-    def all_poses(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Poses of all links, one pass a row.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-
-        Returns
-        -------
-        numpy.ndarray, shape (links, 4, 4) or (rows, links, 4, 4)
-            Homogeneous matrices, in the order of `links`.
-        """
-    def all_shape_poses(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Poses of all shapes, one pass a row.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-
-        Returns
-        -------
-        numpy.ndarray, shape (shapes, 4, 4) or (rows, shapes, 4, 4)
-            Homogeneous matrices, in the order of `shapes`.
-        """
-    def at(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None
-    ) -> Frames:
-        """
-        The kinematics at one configuration, once: poses, Jacobians, dynamics.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,), or mapping of names to values, optional
-            [rad | m]; coordinates that are not named are as in `neutral`.
-
-        Returns
-        -------
-        Frames
-
-        Examples
-        --------
-        >>> import saltus
-        >>> model = saltus.load_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
-        >>> frames = model.at({"swing_0": 0.3})
-        >>> frames.jacobian("ball_0").shape
-        (6, 3)
-        """
-    def builder(self) -> ModelBuilder:
-        """
-        A new builder that holds what this model was built of.
-
-        To change a mass, a limit, a material, or to add to it, and build another model.
-
-        Returns
-        -------
-        ModelBuilder
-        """
-    def centre_of_mass(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Centre of mass of all that moves, in the world.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-
-        Returns
-        -------
-        numpy.ndarray, shape (3,) or (rows, 3)
-            [m]
-
-        Raises
-        ------
-        ModelError
-            Also where nothing that moves has mass.
-        """
     def contact_properties(
         self, pair: typing.SupportsInt | typing.SupportsIndex
     ) -> ContactProperties:
@@ -1095,24 +984,6 @@ class Model:
         -------
         Gaps
         """
-    def gravity_forces(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        What gravity does to the coordinates, -dV/dq.
-
-        Holding the model still takes the opposite, `inverse_dynamics(q, None, None)`.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-
-        Returns
-        -------
-        numpy.ndarray, shape (n_v,) or (rows, n_v)
-            [N m | N]
-        """
     def integrate(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
@@ -1139,78 +1010,6 @@ class Model:
         ------
         ModelError
             As `state`.
-        """
-    def inverse_dynamics(
-        self,
-        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Forces that make given accelerations: inverse dynamics.
-
-        M(q) a + c(q, v) - gravity_forces(q), by the recursion of Newton and Euler, O(n). At rest and
-        without acceleration they are what holds the model up.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
-            [rad/s | m/s] None: at rest.
-        a : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
-            [rad/s^2 | m/s^2] the rates of v. None: none.
-
-        Returns
-        -------
-        numpy.ndarray, shape (n_v,) or (rows, n_v)
-            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
-
-        Raises
-        ------
-        ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
-        """
-    def jacobian(
-        self,
-        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        link: str | int | Link,
-        point: typing.Any = None,
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Jacobian J of a link: J v is its velocity.
-
-        Rows are [angular; linear] in world axes: the angular velocity [rad/s] of the link and the velocity
-        [m/s] of its frame's origin. With a point there are three rows, the velocity of that point. Columns
-        are by velocity; of free and ball joints v is in the parent's axes, so that a free body's first six
-        columns are those of its own velocity and angular velocity. J^T takes a wrench [moment about that
-        point; force] to forces on the coordinates.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-        link : str, int or Link
-        point : array_like, shape (3,), optional
-            [m] in the link's frame.
-
-        Returns
-        -------
-        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
-            Of many rows (rows, 6, n_v) or (rows, 3, n_v).
-
-        Raises
-        ------
-        ModelError
-            On an unknown link, a wrong shape, or a value that is not finite.
-        """
-    def joint(self, name: str) -> JointInfo:
-        """
-        The JointInfo of this name; ModelError with the names there are.
         """
     def kinetic_energy(self, state: State) -> float:
         """
@@ -1244,9 +1043,9 @@ class Model:
         ModelError
             On an unknown name, a wrong shape, or a value that is not finite.
         """
-    def link(self, name: str) -> Link:
+    def link(self, name: str) -> int:
         """
-        The Link of this name; ModelError with the names there are.
+        Index of a link; ModelError with the names there are.
         """
     def mass_matrix(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -1262,31 +1061,6 @@ class Model:
         Returns
         -------
         numpy.ndarray, shape (n_v, n_v)
-        """
-    def momentum(
-        self,
-        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
-        *,
-        about: typing.Any = None,
-    ) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Momentum of all that moves, [angular; linear] in world axes.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
-            [rad | m]
-        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
-            [rad/s | m/s]
-        about : array_like, shape (3,) or (rows, 3), optional
-            [m] point in the world that the angular momentum is about; None: the world's origin. With
-            `centre_of_mass(q)` it is the centroidal momentum.
-
-        Returns
-        -------
-        numpy.ndarray, shape (6,) or (rows, 6)
-            Angular momentum [kg m^2/s], momentum [kg m/s].
         """
     def neutral(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
@@ -1330,7 +1104,7 @@ class Model:
     def pose(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        link: str | int | Link,
+        link: str | int,
     ) -> Pose:
         """
         Pose of a link in the world; `Model::X_WL` in C++.
@@ -1552,10 +1326,60 @@ class Model:
     @property
     def velocity_names(self) -> list[str]: ...
     @property
+    def visuals(self) -> list[Visual]:
+        """
+        what its links look like, for pictures
+        """
+    @property
     def warnings(self) -> list[str]:
         """
         what was understood but is not used
         """
+
+class Mimic:
+    """
+    This joint's displacement is `multiplier * (displacement of joint) + offset`.
+
+    Parameters
+    ----------
+    joint : str
+        Name of the joint to follow; both have one coordinate.
+    multiplier : float
+    offset : float
+        [rad | m]
+    """
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        joint: str,
+        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def joint(self) -> str: ...
+    @property
+    def multiplier(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """
+        [rad | m]
+        """
+
+class InertiaCheck(enum.Enum):
+    """
+    How far the inertia of a link may be from what a body can have.
+
+    strict: not at all. lenient, as of files: with a warning, moments that are possible once none is
+    changed by more than 2 % of the greatest, and moments without a mass of what is welded or fixed.
+    as_given: moments may be anything.
+    """
+
+    as_given = ...
+    lenient = ...
+    strict = ...
 
 class AdjacentLinks(enum.Enum):
     """
@@ -1582,6 +1406,7 @@ class ModelBuilder:
         Name of the link that is fixed to the world; its frame is the world frame.
     """
     def __init__(self, name: str = "model", root: str = "world") -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def add(
         self,
@@ -1792,7 +1617,9 @@ class ModelBuilder:
         ModelError
             On a duplicate name, a zero axis, limits in the wrong order, and NaN or infinite values.
         """
-    def add_link(self, name: str, inertia: BodyInertia = ...) -> ModelBuilder:
+    def add_link(
+        self, name: str, inertia: BodyInertia = ..., *, check: InertiaCheck | str = ...
+    ) -> ModelBuilder:
         """
         Adds a link.
 
@@ -1801,6 +1628,8 @@ class ModelBuilder:
         name : str
         inertia : BodyInertia
             In the link's frame; without it the link has no mass.
+        check : InertiaCheck or str
+            How far it may be from what a body can have.
 
         Raises
         ------
@@ -1830,6 +1659,35 @@ class ModelBuilder:
         ModelError
             On sizes that are not finite and positive, and on a half-space of a link other than the root.
         """
+    def add_visual(
+        self,
+        link: str,
+        shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex | TriangleMesh,
+        X_LG: Pose = ...,
+        *,
+        rgba: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ] = (0.7, 0.7, 0.7, 1),
+        name: str = "",
+    ) -> ModelBuilder:
+        """
+        Adds what a link looks like, or a part of it; it touches nothing.
+
+        Parameters
+        ----------
+        link : str
+        shape : Shape or TriangleMesh
+        X_LG : Pose
+            Its frame in the link's frame.
+        rgba : array_like, shape (4,)
+            Red, green, blue and opacity, each in [0, 1].
+        name : str
+
+        Raises
+        ------
+        ModelError
+            On sizes that are not finite and positive, a half-space, and numbers that are no colour.
+        """
     def add_warning(self, text: str) -> ModelBuilder:
         """
         Adds to the model's `warnings`; returns the builder.
@@ -1851,48 +1709,6 @@ class ModelBuilder:
     def check(self) -> None:
         """
         The checks of `build` alone; raises ModelError.
-        """
-    def joint(self, name: str) -> BuilderJoint:
-        """
-        A joint by name, to read and to change.
-
-        Parameters
-        ----------
-        name : str
-
-        Returns
-        -------
-        BuilderJoint
-
-        Raises
-        ------
-        ModelError
-            On an unknown name; lists the names there are.
-        """
-    def link(self, name: str) -> BuilderLink:
-        """
-        A link by name, to read and to change.
-
-        Parameters
-        ----------
-        name : str
-
-        Returns
-        -------
-        BuilderLink
-
-        Raises
-        ------
-        ModelError
-            On an unknown name; lists the names there are.
-
-        Examples
-        --------
-        >>> import saltus
-        >>> builder = saltus.read_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
-        >>> builder.link("ball_0").mass = 2.0
-        >>> builder.build().link("ball_0").mass
-        2.0
         """
     def set_adjacent_links(self, adjacent: AdjacentLinks | str) -> ModelBuilder:
         """
@@ -1985,298 +1801,7 @@ class ModelBuilder:
         solver : TreeSolver or str
         """
     @property
-    def joint_names(self) -> list[str]: ...
-    @property
-    def link_names(self) -> list[str]: ...
-    @property
     def warnings(self) -> list[str]: ...
-
-class BuilderLink:
-    """
-    A link of a builder: what is set here is checked and kept at once.
-
-    Made by `ModelBuilder.link`. Models that were built before do not change.
-    """
-    def __repr__(self) -> str: ...
-    @property
-    def inertia(self) -> BodyInertia:
-        """
-        BodyInertia: mass, centre of mass and inertia about it, in the link's frame
-        """
-    @inertia.setter
-    def inertia(self, arg1: BodyInertia) -> None: ...
-    @property
-    def mass(self) -> float:
-        """
-        [kg] When it is set the centre of mass stays, and the inertia about it grows with it
-        """
-    @mass.setter
-    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def material(self) -> str | None:
-        """
-        what its shapes are made of, see `set_contact`; None where nothing is said
-        """
-    @material.setter
-    def material(self, arg1: str) -> None: ...
-    @property
-    def name(self) -> str: ...
-
-class BuilderJoint:
-    """
-    A joint of a builder: what is set here is checked and kept at once.
-
-    Made by `ModelBuilder.joint`. Models that were built before do not change.
-    """
-    def __repr__(self) -> str: ...
-    @property
-    def X_PJ(self) -> Pose:
-        """
-        Pose of the joint's frame in the parent link's
-        """
-    @X_PJ.setter
-    def X_PJ(self, arg1: Pose) -> None: ...
-    @property
-    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        """
-        in the joint's frame, of any length but 0, shape (3,)
-        """
-    @axis.setter
-    def axis(
-        self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
-    ) -> None: ...
-    @property
-    def child(self) -> str: ...
-    @property
-    def damping(self) -> float:
-        """
-        [N m s/rad | N s/m]
-        """
-    @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def effort(self) -> float:
-        """
-        [N m | N] limit, inf where there is none
-        """
-    @effort.setter
-    def effort(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def friction(self) -> float:
-        """
-        [N m | N]
-        """
-    @friction.setter
-    def friction(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def lower(self) -> float:
-        """
-        [rad | m] limit, -inf where there is none
-        """
-    @lower.setter
-    def lower(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def mimic(self) -> Mimic | None:
-        """
-        Mimic or None
-        """
-    @mimic.setter
-    def mimic(self, arg1: Mimic | None) -> None: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def parent(self) -> str: ...
-    @property
-    def pitch(self) -> float:
-        """
-        [m/rad] helical joints only
-        """
-    @pitch.setter
-    def pitch(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def type(self) -> JointType: ...
-    @property
-    def upper(self) -> float:
-        """
-        [rad | m] limit, inf where there is none
-        """
-    @upper.setter
-    def upper(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def velocity(self) -> float:
-        """
-        [rad/s | m/s] limit, inf where there is none
-        """
-    @velocity.setter
-    def velocity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-
-class Frames:
-    """
-    A model at one configuration: its kinematics once, then what follows.
-
-    Made by `Model.at`. `set` moves it on without new memory, which a loop over configurations wants; to
-    have many at once, the methods of `Model` take arrays of shape (rows, n_q). World axes and
-    [angular; linear] throughout. Not for two threads at once.
-    """
-    def __repr__(self) -> str: ...
-    def accelerations(
-        self,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
-        """
-        As `Model.accelerations`, here.
-
-        Parameters
-        ----------
-        v : array_like, shape (n_v,), or mapping of names to values
-            [rad/s | m/s]
-        forces : array_like, shape (n_v,), or mapping of names to values, optional
-            [N m | N]
-
-        Returns
-        -------
-        numpy.ndarray, shape (n_v,)
-        """
-    def all_poses(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Homogeneous matrices of all links, shape (links, 4, 4).
-        """
-    def all_shape_poses(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        Homogeneous matrices of all shapes, shape (shapes, 4, 4).
-        """
-    def centre_of_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        """
-        [m] of all that moves, in the world, shape (3,).
-        """
-    def gaps(self) -> Gaps:
-        """
-        Gaps of all pairs, as `Model.gaps`.
-        """
-    def gravity_forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
-        """
-        What gravity does to the coordinates [N m | N], shape (n_v,); see `Model`.
-        """
-    def inverse_dynamics(
-        self,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
-        | numpy.typing.ArrayLike
-        | None = None,
-    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
-        """
-        As `Model.inverse_dynamics`, here.
-
-        Parameters
-        ----------
-        v : array_like, shape (n_v,), or mapping of names to values
-            [rad/s | m/s]
-        a : array_like, shape (n_v,), or mapping of names to values
-            [rad/s^2 | m/s^2]
-
-        Returns
-        -------
-        numpy.ndarray, shape (n_v,)
-        """
-    def jacobian(
-        self, link: str | int | Link, point: typing.Any = None
-    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        As `Model.jacobian`, here.
-
-        Parameters
-        ----------
-        link : str, int or Link
-        point : array_like, shape (3,), optional
-            [m] in the link's frame.
-
-        Returns
-        -------
-        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
-        """
-    def mass_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        M(q), shape (n_v, n_v).
-        """
-    def momentum(
-        self,
-        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
-        *,
-        about: typing.Any = None,
-    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
-        """
-        As `Model.momentum`, here.
-
-        Parameters
-        ----------
-        v : array_like, shape (n_v,), or mapping of names to values
-            [rad/s | m/s]
-        about : array_like, shape (3,), optional
-            [m] point in the world; None: its origin.
-
-        Returns
-        -------
-        numpy.ndarray, shape (6,)
-        """
-    def pose(self, link: str | int | Link) -> Pose:
-        """
-        Pose of a link in the world.
-
-        Parameters
-        ----------
-        link : str, int or Link
-
-        Returns
-        -------
-        Pose
-        """
-    def set(
-        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
-    ) -> Frames:
-        """
-        Moves to another configuration and returns itself.
-
-        Parameters
-        ----------
-        q : array_like, shape (n_q,), or mapping of names to values
-            [rad | m]
-
-        Returns
-        -------
-        Frames
-        """
-    def shape_pose(self, shape: str | int) -> Pose:
-        """
-        Pose of a shape in the world.
-
-        Parameters
-        ----------
-        shape : str or int
-            Its name, as in pairs, or index.
-
-        Returns
-        -------
-        Pose
-        """
-    @property
-    def mass(self) -> float:
-        """
-        [kg] of all that moves
-        """
-    @property
-    def model(self) -> Model: ...
-    @property
-    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
-        """
-        [rad | m] shape (n_q,)
-        """
 
 class MeshUse(enum.Enum):
     """
@@ -2285,6 +1810,20 @@ class MeshUse(enum.Enum):
 
     hull = ...
     none = ...
+
+class InertiaUse(enum.Enum):
+    """
+    Where the inertias of a file's links come from.
+
+    checked: from the file; moments that no body can have are refused, unless a change of 2 % of the
+    greatest makes them possible, which is a warning. as_given: from the file, whatever they are.
+    from_shapes: links without a mass get that of their collision shapes, or where there are none of
+    their visuals, filled with water (1000 kg/m^3); a mesh is filled to its convex hull.
+    """
+
+    as_given = ...
+    checked = ...
+    from_shapes = ...
 
 class ImpactLaw(enum.IntEnum):
     """
@@ -2345,6 +1884,7 @@ class ImpactProblem:
     pairs : list of int
         Indices of the pairs, as in `Model.pair_name`.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def M(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
@@ -2420,6 +1960,7 @@ class StepOptions:
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
         strict: bool = False,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
@@ -2457,6 +1998,7 @@ class ImpactOutcome:
     """
     Velocity after an impact, and the impulses that led there, in order.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def impulses(self) -> numpy.ndarray:
@@ -2473,6 +2015,7 @@ class FrictionOutcome:
     """
     Velocity after an impact with friction, and the impulses that led there, in order.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def impulses(self) -> typing.Any:
@@ -2518,6 +2061,7 @@ class ImpactCertificate:
     same : list of int
         The first contact with each one's normal, mostly the contact itself: equal normals count once.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
     @property
@@ -2563,6 +2107,7 @@ class ImpactOutcomes:
     states : int
         Number of velocities on the way.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def outcomes(self) -> list[ImpactOutcome]:
@@ -2631,9 +2176,9 @@ class Impact:
         points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
         normals: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
-    def _repr_html_(self) -> str: ...
     @property
     def certificate(self) -> str: ...
     @property
@@ -2678,6 +2223,7 @@ class ContactImpulse:
     normal : numpy.ndarray, shape (3,)
         Unit normal in the world frame, from the pair's second shape to the first.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def impulse(self) -> float: ...
@@ -2719,6 +2265,7 @@ class StepReport:
     contacts : list of ContactImpulse
         Impulses that held contacts closed over the step, each pair once, without those of impacts.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def arcs(self) -> int: ...
@@ -2781,6 +2328,7 @@ class Stepper:
         simultaneous: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
         strict: bool = False,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def advance(self, state: State) -> State:
         """
@@ -2817,22 +2365,11 @@ class Trajectory:
     """
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
-    @staticmethod
-    def from_states(
-        model: Model,
-        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
-        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
-        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
-        momenta: bool,
-        h: typing.SupportsFloat | typing.SupportsIndex,
-    ) -> Trajectory:
-        """
-        A run of given rows: `rows` are velocities or `momenta`.
-        """
     def __init__(self, model: Model) -> None:
         """
         Of no rows; `simulate` writes to it.
         """
+    def __reduce__(self) -> tuple: ...
     @property
     def certificates(self) -> list[str]:
         """
@@ -2920,7 +2457,7 @@ class Energies:
     """
     Energies of one state.
     """
-    def __repr__(self) -> str: ...
+    def __reduce__(self) -> tuple: ...
     @property
     def kinetic(self) -> float:
         """
@@ -2958,6 +2495,7 @@ class BatchTrajectory:
         """
         Of no runs; `simulate_batch` writes to it.
         """
+    def __reduce__(self) -> tuple: ...
     def run(self, index: typing.SupportsInt | typing.SupportsIndex) -> Trajectory:
         """
         One run as a Trajectory of its own.
@@ -3198,6 +2736,9 @@ def read_urdf(
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
+    visuals: bool = True,
+    inertia: InertiaUse | str = ...,
+    strict: bool = False,
 ) -> ModelBuilder:
     """
     Reads URDF into a ModelBuilder, to add to it before `build`.
@@ -3222,6 +2763,12 @@ def read_urdf(
         The default contact, in place of the file's own.
     floor : bool
         Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
+    visuals : bool
+        Reads what links look like, `Model.visuals`.
+    inertia : InertiaUse or str
+        Where the inertias of links come from.
+    strict : bool
+        Refuses what is wrong and else read with a warning.
 
     Returns
     -------

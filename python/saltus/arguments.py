@@ -220,7 +220,7 @@ def _is_float(value: object) -> bool:
         return False
     try:
         float(value)  # type: ignore[arg-type]  # that is the question
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     return not isinstance(value, str | bytes | bytearray)
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from saltus._core import (
     ContactProperties,
+    InertiaUse,
     JointEffects,
     JointType,
     MeshUse,
@@ -58,6 +59,9 @@ def load_urdf(
     contact: ContactProperties | None = None,
     floor: bool = False,
     effects: JointEffects | str = JointEffects.all,
+    visuals: bool = True,
+    inertia: InertiaUse | str = InertiaUse.checked,
+    strict: bool = False,
 ) -> Model:
     """Read a model from a URDF file or text.
 
@@ -88,6 +92,15 @@ def load_urdf(
     effects : JointEffects or str
         What of the joints acts: limits as stops, damping, dry friction, motors. "none": joints move
         freely, and the numbers of the file are information.
+    visuals : bool
+        True: reads what links look like, `Model.visuals`, for pictures; meshes take time.
+    inertia : InertiaUse or str
+        `checked`: from the file, which must be possible, moments to 2 %; `as_given`: from the file,
+        whatever moments are; `from_shapes`: links without a mass are filled with water.
+    strict : bool
+        True: refuses what is wrong in the file and else read with a warning, as other readers do:
+        limits that are missing or crossed, `<mimic>` of what is fixed or not there, sizes of 0,
+        inertias that no body has, bytes that are no UTF-8.
 
     Returns
     -------
@@ -116,5 +129,8 @@ def load_urdf(
         contact=contact,
         floor=floor,
         effects=effects,
+        visuals=visuals,
+        inertia=inertia,
+        strict=strict,
     )
     return builder.build()

@@ -107,4 +107,5 @@ set(SALTUS_TEST_urdf
   urdf/test_shapes.cpp
   urdf/test_sources.cpp
   urdf/test_structure_errors.cpp
+  urdf/test_visuals.cpp
 )

@@ -68,6 +68,8 @@ TAKERS = [
     ("solver", saltus.TreeSolver, lambda x: str(saltus.load_urdf(CHAIN, solver=x).solvers)),
     ("solver", saltus.TreeSolver, lambda x: str(chain().set_solver(x).build().solvers)),
     ("meshes", saltus.MeshUse, lambda x: saltus.load_urdf(CHAIN, meshes=x).n_pairs),
+    ("inertia", saltus.InertiaUse, lambda x: saltus.load_urdf(CHAIN, inertia=x).n_q),
+    ("check", saltus.InertiaCheck, lambda x: saltus.ModelBuilder().add_link("a", check=x) is None),
     ("adjacent", saltus.AdjacentLinks, lambda x: chain().set_adjacent_links(x).build().n_pairs),
     ("on_failure", saltus.OnFailure, lambda x: len(batch(x))),
 ]

@@ -8,30 +8,19 @@ may cancel to any smallness.
 from __future__ import annotations
 
 import functools
-import importlib.metadata
 import warnings
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
+from robot_files import robots_folder
 
 import saltus
 
 NEEDED = "Pinocchio is not installed: pip install 'saltus[robots]'"
 pin = pytest.importorskip("pinocchio", reason=NEEDED)
 TOLERANCE = 1e-12
-
-# What is wrong with files of example-robot-data.
-REFUSED = {
-    "alex_psyonic_hands": "mimics joint",
-    "bolt": "has an inertia but no mass",
-    "romeo": "moves no mass",
-    "romeo_laas_small": "that no body can have",
-    "romeo_small": "that no body can have",
-    "ur3": "has no <link>",
-}
 
 
 @dataclass(frozen=True)
@@ -69,14 +58,6 @@ ROBOTS = {
         srdf="ur_description/srdf/ur5.srdf",
     ),
 }
-
-
-def robots_folder() -> Path:
-    try:
-        data = importlib.metadata.distribution("example-robot-data")
-    except importlib.metadata.PackageNotFoundError:
-        pytest.skip("example-robot-data is not installed: pip install 'saltus[robots]'")
-    return Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots")).resolve()
 
 
 def load_anew(name: str, **options) -> saltus.Model:
@@ -222,20 +203,6 @@ def test_srdf_names_its_links(name):
     model = load_anew(name, srdf=robots_folder() / ROBOTS[name].srdf)
     assert not [text for text in model.warnings if "has not" in text]
     assert set(model.pair_names) <= set(load(name).pair_names)
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::saltus.ModelWarning")
-def test_every_robot_loads_with_its_meshes():
-    folder = robots_folder()
-    paths = sorted(folder.rglob("*.urdf"))
-    assert len(paths) > 60
-    for path in paths:
-        if path.stem in REFUSED:
-            with pytest.raises(saltus.ModelError, match=REFUSED[path.stem]):
-                saltus.load_urdf(path, package_dirs=[folder, folder.parent])
-        else:
-            saltus.load_urdf(path, package_dirs=[folder, folder.parent])
 
 
 @each_robot

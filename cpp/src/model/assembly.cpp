@@ -22,6 +22,7 @@ void Assembly::check() {
   check_moments();
   check_masses();
   add_shapes();
+  check_visuals();
 }
 
 Model Assembly::build() {

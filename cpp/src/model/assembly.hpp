@@ -63,7 +63,8 @@ class Assembly {
 
   // masses.cpp
   void add_masses();
-  void check_moments();       // of what is welded together; warns of links impossible alone
+  void check_moments();  // of what is welded together; warns of links impossible alone
+  std::string reading_of(const LinkSpec& link, int joint) const;
   void check_masses() const;  // joints that move no mass
 
   // joint_forces.cpp
@@ -84,6 +85,9 @@ class Assembly {
   void warn_of_unsaid_contacts();  // of free roots that meet half-spaces
   std::vector<int> flying_links() const;
   bool is_unsaid(int i, int j) const;  // of two shapes
+
+  // visuals.cpp
+  void check_visuals() const;  // their links
 
   // pairs.cpp
   void add_shapes();

@@ -18,18 +18,26 @@ struct FeltInertia {
 };
 
 /// What is wrong with the principal moments of a body; "" if nothing is.
-std::string impossible_moments(const BodyInertia& body) {
+struct Moments {
+  std::string wrong;
+  bool are_near = false;  ///< possible if none were changed by more than 2 % of the greatest
+};
+
+Moments judge(const BodyInertia& body) {
   const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(body.I_J).eigenvalues();
   // 1e-5: thin rods and plates lie on the boundary, and three moments of six digits leave so much.
   // 1e-12 m^2: a body of a micrometre is a point, whatever noise is written for its moments.
   const double slack = 1e-5 * body.I_J.norm() + 1e-12 * body.mass;
   // a negative moment is in the way of the rule for the greatest, too
-  if (moments[2] - moments[0] - moments[1] <= slack) return {};
+  const double excess = moments[2] - moments[0] - moments[1];
+  if (excess <= slack) return {};
   std::ostringstream text;
   text << "principal moments of inertia (" << moments[0] << " " << moments[1] << " " << moments[2]
        << ") that no body can have: each must be at least 0 and at most the sum of the other two";
-  return text.str();
+  return {text.str(), moments[0] > 0 && excess <= 3 * 0.02 * moments[2]};
 }
+
+bool has_no_mass(const BodyInertia& body) { return body.mass == 0 && body.I_J.norm() > 0; }
 
 /// Pivots of a symmetric matrix eliminated from its last row up.
 VecX pivots_from_last(MatX M) {
@@ -97,17 +105,45 @@ void Assembly::add_masses() {
 // Bodies with possible moments have possible ones when welded, so some link is to blame where the
 // sum has none.
 void Assembly::check_moments() {
-  for (std::size_t i = 1; i < d_.links.size(); ++i) {  // the root cannot move
-    const std::string wrong = impossible_moments(d_.links[i].inertia);
-    if (wrong.empty()) continue;
-    const std::string text = "link " + quoted(d_.links[i].name) + " has " + wrong;
-    const int j = place_[i].joint;
-    if (j >= 0 && !impossible_moments(m_.mass.body[j]).empty()) {
-      throw ModelError(text, "link", d_.links[i].name);
-    }
-    m_.warnings.push_back(text + (j < 0 ? "; it is fixed to the world and they are not used"
-                                        : "; those of all that it is fixed to are possible"));
+  std::map<std::string, std::pair<std::string, int>> notes;  // how they are read -> first, count
+  for (std::size_t i = 0; i < d_.links.size(); ++i) {
+    const LinkSpec& link = d_.links[i];
+    if (i == 0 && !has_no_mass(link.inertia)) continue;  // the root cannot move
+    const std::string reading = reading_of(link, place_[i].joint);
+    if (reading.empty()) continue;
+    const std::string what =
+        has_no_mass(link.inertia) ? "an inertia but no mass" : judge(link.inertia).wrong;
+    auto& [first, count] = notes[reading];
+    if (++count == 1) first = "link " + quoted(link.name) + " has " + what + "; " + reading;
   }
+  for (const auto& [reading, of] : notes) {
+    const std::string more = " (and " + std::to_string(of.second - 1) + " more like it)";
+    m_.warnings.push_back(of.first + (of.second > 1 ? more : ""));
+  }
+}
+
+/// How the inertia of a link is read that no body can have; "" where a body can.
+/// @throws ModelError where it is not read.
+std::string Assembly::reading_of(const LinkSpec& link, int joint) const {
+  const auto refuse = [&](const std::string& what) {
+    throw ModelError("link " + quoted(link.name) + " has " + what, "link", link.name);
+  };
+  const BodyInertia* body = joint < 0 ? nullptr : &m_.mass.body[joint];
+  if (has_no_mass(link.inertia)) {
+    if (body == nullptr) return "it is fixed to the world and it is not used";
+    if (body->mass == 0) refuse("an inertia but no mass, and what moves has one");
+    return "it is added to that of what it is fixed to";
+  }
+  const Moments moments = judge(link.inertia);
+  if (moments.wrong.empty()) return "";
+  if (body == nullptr) return "it is fixed to the world and they are not used";
+  if (judge(*body).wrong.empty()) return "those of all that it is fixed to are possible";
+  if (link.check == InertiaCheck::as_given) return "they are used as they are";
+  if (link.check == InertiaCheck::strict) refuse(moments.wrong);
+  if (!moments.are_near) {
+    refuse(moments.wrong + "; inertia=\"as_given\" of load_urdf uses them as they are");
+  }
+  return "they are off by less than 2 % and used as they are";
 }
 
 // Where `free` vanishes against `locked`, no force is needed to move the coordinate: what is below
@@ -121,12 +157,14 @@ void Assembly::check_masses() const {
     const int coordinate = m_.tree.coordinate[c];
     const JointSpec& joint = d_.joints[joint_.at(m_.coordinates[coordinate].joint)];
     const bool gives_way = felt[c].locked > 1e-14 * felt[c].scale;
-    throw ModelError("joint " + quoted(joint.name) + " moves no mass" +
-                         (gives_way ? " of its own: a joint below it undoes its motion, as one on "
-                                      "the same axis does"
-                                    : ": give link " + quoted(joint.child) +
-                                          " or a link below it a mass and an inertia"),
-                     "joint", joint.name);
+    const bool is_empty = d_.links[link_.at(joint.child)].inertia.mass == 0;
+    const std::string link = "link " + quoted(joint.child);
+    throw ModelError(
+        "joint " + quoted(joint.name) + " moves no mass" +
+            (gives_way ? " of its own: " + (is_empty ? link + " has none, and " : std::string()) +
+                             "a joint below it undoes its motion, as one on the same axis does"
+                       : ": give " + link + " or a link below it a mass and an inertia"),
+        "joint", joint.name);
   }
 }
 

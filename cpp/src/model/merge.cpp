@@ -54,6 +54,7 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
     rename(shape.link);
     if (!shape.name.empty()) rename(shape.name);
   }
+  for (Visual& visual : d.visuals) rename(visual.link);
   d.materials.of_link = prefixed(d.materials.of_link, prefix);
   if (!how.own_materials) return;
   for (ShapeSpec& shape : d.shapes) {
@@ -283,6 +284,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.joints, d.joints);
   append(other.actuators, d.actuators);
   append(other.shapes, d.shapes);
+  append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);
   append(other.filter.links, d.filter.links);
   append(other.filter.bodies, d.filter.bodies);

@@ -16,33 +16,24 @@ std::string show(const Vec3& x) {
   return text.str();
 }
 
-/// The placement, with its rotation made orthonormal; @throws where it is none.
-Pose checked_pose(const Pose& X, const std::string& element, const std::string& name) {
-  const bool finite = X.p.allFinite() && X.R.allFinite();
-  const double defect = (X.R.transpose() * X.R - Mat3::Identity()).norm();
-  // 1e-6: what is left of a rotation written with six digits
-  if (!finite || !(defect < 1e-6) || X.R.determinant() < 0) {
-    throw ModelError(element + " " + quoted(name) + " has a placement that is " +
-                         (finite ? "no rotation" : "not finite"),
-                     element, name);
-  }
-  if (defect < 1e-14) return X;  // as good as computed; zeros and ones stay as they are
-  return {Eigen::Quaterniond(X.R).normalized().toRotationMatrix(), X.p};
+}  // namespace
+
+template <class Items>
+bool ModelBuilder::is_taken(const Items& items, const std::string& name, KnownNames& known) {
+  if (known.count > items.size()) known = {};
+  for (; known.count < items.size(); ++known.count) known.names.insert(items[known.count].name);
+  return known.names.count(name) > 0;
 }
 
 template <class Items>
-void check_new_name(const Items& items, const std::string& element, const std::string& name) {
+void ModelBuilder::check_new_name(const Items& items, const std::string& element,
+                                  const std::string& name, KnownNames& known) {
   if (name.empty()) throw ModelError("a " + element + " has no name", element, name);
-  for (const auto& item : items) {
-    if (item.name == name) {
-      throw ModelError("two " + element + "s are named " + quoted(name), element, name);
-    }
-  }
+  if (!is_taken(items, name, known)) return;
+  throw ModelError("two " + element + "s are named " + quoted(name), element, name);
 }
 
-}  // namespace
-
-void check_inertia(const BodyInertia& inertia, const std::string& link) {
+void check_inertia(const BodyInertia& inertia, const std::string& link, InertiaCheck check) {
   const auto fail = [&](const std::string& what) {
     throw ModelError("link " + quoted(link) + " has " + what, "link", link);
   };
@@ -57,7 +48,8 @@ void check_inertia(const BodyInertia& inertia, const std::string& link) {
   if ((inertia.I_J - inertia.I_J.transpose()).norm() > 1e-12 * size) {
     fail("an inertia matrix that is not symmetric");
   }
-  if (inertia.mass == 0 && size > 0) fail("an inertia but no mass");
+  const bool without_mass = inertia.mass == 0 && size > 0;
+  if (without_mass && check == InertiaCheck::strict) fail("an inertia but no mass");
 }
 
 ModelBuilder::ModelBuilder(std::string name, std::string root) {
@@ -83,8 +75,8 @@ ModelBuilder& ModelBuilder::set_source(std::string text) {
 }
 
 ModelBuilder& ModelBuilder::add_link(const LinkSpec& link) {
-  check_new_name(d_.links, "link", link.name);
-  check_inertia(link.inertia, link.name);
+  check_new_name(d_.links, "link", link.name, links_);
+  check_inertia(link.inertia, link.name, link.check);
   d_.links.push_back(link);
   return *this;
 }
@@ -93,7 +85,7 @@ ModelBuilder& ModelBuilder::add_joint(const JointSpec& joint) {
   const auto fail = [&](const std::string& what) {
     throw ModelError("joint " + quoted(joint.name) + " " + what, "joint", joint.name);
   };
-  check_new_name(d_.joints, "joint", joint.name);
+  check_new_name(d_.joints, "joint", joint.name, joints_);
   JointSpec checked = joint;
   checked.X_PJ = checked_pose(joint.X_PJ, "joint", joint.name);
   if (!joint.axis.allFinite()) fail("has an axis that is not finite: " + show(joint.axis));
@@ -126,6 +118,13 @@ ModelBuilder& ModelBuilder::add_shape(const std::string& link, const Shape& shap
                      "link", link);
   }
   d_.shapes.push_back({link, "", shape, checked_pose(X_LG, "link", link)});
+  return *this;
+}
+
+ModelBuilder& ModelBuilder::add_visual(const Visual& visual) {
+  check_visual(visual);
+  d_.visuals.push_back(visual);
+  d_.visuals.back().X_LG = checked_pose(visual.X_LG, "link", visual.link);
   return *this;
 }
 

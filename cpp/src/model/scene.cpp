@@ -63,6 +63,7 @@ ModelBuilder& ModelBuilder::add_body(const BodySpec& body) {
     add_joint(joint);
   } catch (...) {
     d_.links.pop_back();
+    links_ = {};
     throw;
   }
   return add_shape(body.name, body.shape);

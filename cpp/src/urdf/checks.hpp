@@ -3,13 +3,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "urdf/document.hpp"
+#include "urdf/warnings.hpp"
 
 namespace saltus::reader {
-
-using Warnings = std::vector<std::string>;
 
 /// Elements, attributes and numbers against the schema. What URDF does not know is a warning, in
 /// the `<saltus>` block an error.

@@ -59,6 +59,13 @@ std::string attribute(const XMLElement& element, const char* name) {
 
 std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
+bool has_xacro(const std::string& text) {
+  return text.find("${") != std::string::npos || text.find("$(") != std::string::npos;
+}
+
+const char* const xacro_expression =
+    "an expression of xacro that was not expanded; xacro FILE.xacro > FILE.urdf does it";
+
 Document::Document(const Source& source) : label_(source.label) {
   if (xml_.Parse(source.text.data(), source.text.size()) != tinyxml2::XML_SUCCESS) {
     throw ModelError(label_ + ":" + std::to_string(error_line(xml_, source.text)) +

@@ -26,6 +26,11 @@ struct Owner {
 std::string attribute(const XMLElement& element, const char* name);  ///< "" where there is none
 std::string in_quotes(const std::string& name);
 
+/// "${mass}", "$(find arm)": what xacro replaces, where it was not run.
+bool has_xacro(const std::string& text);
+/// `has <mass value="${m}">: ` goes on with this.
+extern const char* const xacro_expression;
+
 class Document {
  public:
   /// @throws ModelError if the text is no XML or has not one `<robot>`.

@@ -14,7 +14,4 @@ Pose pose(const urdf::Pose& origin);
 void add_shapes(const XMLElement& link, const urdf::Link& parsed, CollisionMeshes& meshes,
                 ModelBuilder& builder);
 
-/// One warning for all meshes of visuals that are not found: they are only looked at.
-void warn_of_visuals(const Document& document, const MeshFolders& folders, ModelBuilder& builder);
-
 }  // namespace saltus::reader

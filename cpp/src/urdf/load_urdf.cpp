@@ -11,9 +11,12 @@
 #include "urdf/checks.hpp"
 #include "urdf/extension.hpp"
 #include "urdf/geometry.hpp"
+#include "urdf/joint_elements.hpp"
 #include "urdf/parse.hpp"
 #include "urdf/rewrite.hpp"
+#include "urdf/shape_inertias.hpp"
 #include "urdf/srdf.hpp"
+#include "urdf/visuals.hpp"
 
 namespace saltus {
 namespace {
@@ -73,11 +76,32 @@ JointSpec joint_spec(const urdf::Joint& joint, const std::string& type, JointEff
     const Vec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
     spec.axis = axis / axis.cwiseAbs().maxCoeff();  // else the square of 1e-200 would be zero
   }
-  if (joint.mimic != nullptr && spec.type != JointType::fixed) {
-    spec.mimic = Mimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};
-  }
   set_limits(joint, spec);
   return spec;
+}
+
+/// What moves in one direction, fixed where it stands.
+void lock(double displacement, JointSpec& spec) {
+  const Vec3 axis = spec.axis.stableNormalized();
+  Pose X;
+  if (spec.type == JointType::prismatic) {
+    X.p = displacement * axis;
+  } else {
+    X.R = Eigen::AngleAxisd(displacement, axis).toRotationMatrix();
+  }
+  spec.X_PJ = spec.X_PJ * X;
+  spec.type = JointType::fixed;
+}
+
+void set_mimic(const Document& document, const XMLElement& joint, const urdf::Joint& parsed,
+               JointSpec& spec) {
+  if (parsed.mimic == nullptr || spec.type == JointType::fixed) return;
+  const urdf::JointMimic& mimic = *parsed.mimic;
+  if (document.find("joint", mimic.joint_name) == nullptr) return;  // check_elements tells
+  const bool one_way = has_axis(attribute(joint, "type")) && spec.type != JointType::planar;
+  const std::optional<double> locked = locked_displacement(document, joint);
+  if (one_way && locked) return lock(*locked, spec);
+  spec.mimic = Mimic{mimic.joint_name, mimic.multiplier, mimic.offset};
 }
 
 std::string unused_name(const Document& document, const char* element, std::string name) {
@@ -99,14 +123,16 @@ void add_root_joint(const Document& document, JointType type, const std::string&
 
 void add_links_and_joints(const Document& document, const urdf::ModelInterface& parsed,
                           CollisionMeshes& meshes, const std::string& fixed_link,
-                          JointEffects effects, ModelBuilder& builder) {
+                          InertiaCheck check, JointEffects effects, ModelBuilder& builder) {
   for (const XMLElement* e : document.all("link")) {
     const std::string name = attribute(*e, "name");
-    if (name != fixed_link) builder.add_link({name, inertia(*parsed.getLink(name))});
+    if (name != fixed_link) builder.add_link({name, inertia(*parsed.getLink(name)), check});
   }
   for (const XMLElement* e : document.all("joint")) {
     const urdf::Joint& joint = *parsed.getJoint(attribute(*e, "name"));
-    builder.add_joint(joint_spec(joint, attribute(*e, "type"), effects));
+    JointSpec spec = joint_spec(joint, attribute(*e, "type"), effects);
+    set_mimic(document, *e, joint, spec);
+    builder.add_joint(spec);
   }
   for (const XMLElement* e : document.all("link")) {
     add_shapes(*e, *parsed.getLink(attribute(*e, "name")), meshes, builder);
@@ -115,11 +141,16 @@ void add_links_and_joints(const Document& document, const urdf::ModelInterface& 
 
 /// The root link as the file has it: its mass counts where the robot is put on what moves.
 LinkSpec root_link(const Document& document, const urdf::ModelInterface& parsed,
-                   const std::string& name) {
-  if (document.find("link", name) == nullptr) return {name, {}};
-  const LinkSpec link{name, inertia(*parsed.getLink(name))};
-  check_inertia(link.inertia, name);
+                   const std::string& name, InertiaCheck check) {
+  if (document.find("link", name) == nullptr) return {name, {}, check};
+  const LinkSpec link{name, inertia(*parsed.getLink(name)), check};
+  check_inertia(link.inertia, name, check);
   return link;
+}
+
+InertiaCheck check_of(const UrdfOptions& options) {
+  if (options.inertia == InertiaUse::as_given) return InertiaCheck::as_given;
+  return options.strict ? InertiaCheck::strict : InertiaCheck::lenient;
 }
 
 /// The plane z = 0, unless the file has it.
@@ -148,36 +179,51 @@ void located(const Document& document, const std::function<void()>& add) {
 ModelBuilder read_urdf(const std::string& path_or_text, const UrdfOptions& options) {
   const Source source = read_source(path_or_text);
   const Document document(source);
-  Warnings warnings;
+  Warnings warnings(options.strict);
+  if (!source.flaw.empty()) warnings.add_flaw("encoding", source.flaw, "");
   check_schema(document, warnings);
   check_elements(document, warnings);
   const std::string root = check_tree(document);
   const std::shared_ptr<urdf::ModelInterface> parsed = parse(document);
 
+  const InertiaCheck check = check_of(options);
   const bool is_fixed = options.root_joint == JointType::fixed;
   const std::string world = is_fixed ? root : unused_name(document, "link", "world");
   const std::string name = attribute(document.robot(), "name");
   ModelDescription empty;
   empty.name = name.empty() ? "model" : name;
   empty.root = world;
-  located(document, [&] { empty.links = {root_link(document, *parsed, world)}; });
+  located(document, [&] { empty.links = {root_link(document, *parsed, world, check)}; });
   ModelBuilder builder(std::move(empty));
   builder.set_gravity(options.gravity).set_solver(options.solver).set_source(source.text);
-  for (const std::string& warning : warnings) builder.add_warning(warning);
   const MeshFolders folders{source.folder, options.package_dirs};
-  CollisionMeshes meshes(document, folders, options.meshes);
+  MeshFiles files;
+  CollisionMeshes meshes(document, folders, files, options.meshes, warnings);
   located(document, [&] {
     if (!is_fixed) add_root_joint(document, options.root_joint, world, root, builder);
-    add_links_and_joints(document, *parsed, meshes, world, options.effects, builder);
+    add_links_and_joints(document, *parsed, meshes, world, check, options.effects, builder);
     add_transmissions(document, builder);
   });
+  for (const std::string& warning : warnings.lines()) builder.add_warning(warning);
   meshes.warn(builder);
-  warn_of_visuals(document, folders, builder);
+  if (options.inertia == InertiaUse::from_shapes) {
+    builder = with_inertias_of_shapes(document, folders, files, std::move(builder));
+  }
+  if (options.visuals) Visuals(document, folders, files).add(builder);
   add_extension(document, builder);
   if (options.contact) builder.set_default_contact(*options.contact);
   if (options.floor) add_floor(document, builder);
-  if (options.srdf) add_srdf(*options.srdf, document, builder);
-  located(document, [&] { builder.check(); });
+  if (options.srdf) add_srdf(*options.srdf, document, options.strict, builder);
+  located(document, [&] {
+    try {
+      builder.check();
+    } catch (const ModelError& error) {
+      const std::string what = error.what();
+      if (what.find("moves no mass") == std::string::npos) throw;
+      throw ModelError(what + "; inertia=\"from_shapes\" of load_urdf makes those that are missing",
+                       error.element, error.name);
+    }
+  });
   return builder;
 }
 

@@ -5,8 +5,9 @@
 namespace saltus::reader {
 
 Numbers parse_numbers(const std::string& text) {
-  constexpr const char* white_space = " \t\r\n\v\f";
+  constexpr const char* white_space = " \t\r\n\v\f,";
   Numbers numbers;
+  numbers.has_commas = text.find(',') != std::string::npos;
   for (std::size_t begin = text.find_first_not_of(white_space); begin != std::string::npos;) {
     const std::size_t end = std::min(text.find_first_of(white_space, begin), text.size());
     const char* first = text.data() + begin;
@@ -15,7 +16,9 @@ Numbers parse_numbers(const std::string& text) {
     if (*first == '+' && end - begin > 1 && first[1] != '-') ++first;
     double value = 0;
     const auto [stop, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || stop != last) {
+    const bool has_dot = error == std::errc() && stop + 1 == last && *stop == '.';
+    numbers.has_dots = numbers.has_dots || has_dot;
+    if (error != std::errc() || (stop != last && !has_dot)) {
       numbers.bad = text.substr(begin, end - begin);
       return numbers;
     }

@@ -10,6 +10,8 @@ struct Numbers {
   std::vector<double> values;
   std::string
       bad;  ///< the first word that is no number or has no double; then values end before it
+  bool has_commas = false;  ///< read as white space
+  bool has_dots = false;    ///< "1.5.", read as 1.5
 };
 
 /// Words separated by white space. "inf" and "nan" are numbers here; the caller judges them.

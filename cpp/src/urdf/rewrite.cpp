@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "urdf/attributes.hpp"
 #include "urdf/checks.hpp"
+#include "urdf/joint_elements.hpp"
 #include "urdf/numbers.hpp"
 #include "urdf/schema.hpp"
 #include "urdf/shape_elements.hpp"
@@ -40,7 +42,8 @@ void write_attributes(XMLPrinter& printer, const XMLElement& element, const Elem
   for (const NumberRule& number : rule.numbers) {
     const char* value = element.Attribute(number.name);
     if (value == nullptr) continue;
-    const std::vector<double> values = parse_numbers(value).values;
+    std::vector<double> values = parse_numbers(value).values;
+    values.resize(std::min(values.size(), number.count));
     if (number.name == std::string("quat_xyzw")) {
       printer.PushAttribute("rpy", print_numbers(rpy_from_quaternion(values)).c_str());
     } else {
@@ -58,23 +61,43 @@ void write_children(XMLPrinter& printer, const XMLElement& element, const Elemen
   }
 }
 
+/// All parts, as urdfdom wants them; those that are not there are 0.
+void write_inertial(XMLPrinter& printer, const XMLElement& inertial) {
+  const auto put = [&](const char* name, const std::vector<const char*>& attributes) {
+    const XMLElement* element = inertial.FirstChildElement(name);
+    printer.OpenElement(name);
+    for (const char* each : attributes) {
+      const double value = element == nullptr ? 0 : number(*element, each, 0);
+      printer.PushAttribute(each, print_number(value).c_str());
+    }
+    printer.CloseElement();
+  };
+  put("mass", {"value"});
+  put("inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"});
+}
+
+/// Null: the joint has none. What is not there, or not as URDF has it, is no limit.
+void write_limit(XMLPrinter& printer, const XMLElement* limit) {
+  printer.OpenElement("limit");
+  for (const char* name : {"lower", "upper", "effort", "velocity"}) {
+    const bool is_position = name[0] == 'l' || name[0] == 'u';
+    const bool is_given = limit != nullptr && limit->Attribute(name) != nullptr;
+    if (is_given && !(is_position && are_crossed(*limit))) {
+      const Numbers numbers = parse_numbers(attribute(*limit, name));
+      printer.PushAttribute(name, print_numbers(numbers.values).c_str());
+    } else {
+      printer.PushAttribute(name, print_number(name[0] == 'l' ? -no_limit : no_limit).c_str());
+    }
+  }
+  printer.CloseElement();
+}
+
 void write_joint(XMLPrinter& printer, const XMLElement& joint, const ElementRule& rule) {
   const std::string type = attribute(joint, "type");
   printer.PushAttribute("name", attribute(joint, "name").c_str());
   printer.PushAttribute("type", is_spherical(type) ? "floating" : type.c_str());
+  if (joint.FirstChildElement("limit") == nullptr) write_limit(printer, nullptr);
   write_children(printer, joint, rule);
-}
-
-void write_limit(XMLPrinter& printer, const XMLElement& limit) {
-  for (const char* name : {"lower", "upper", "effort", "velocity"}) {
-    const bool is_position = name[0] == 'l' || name[0] == 'u';
-    if (limit.Attribute(name) != nullptr) {
-      const Numbers numbers = parse_numbers(attribute(limit, name));
-      printer.PushAttribute(name, print_numbers(numbers.values).c_str());
-    } else if (!is_position) {  // positions have a default in URDF, 0
-      printer.PushAttribute(name, print_number(no_limit).c_str());
-    }
-  }
 }
 
 /// Shapes are read from the document: urdfdom knows but few, and only counts them.
@@ -90,11 +113,14 @@ void write(XMLPrinter& printer, const XMLElement& element, const ElementRule& ru
   const bool has_dynamics = element.Attribute("damping") || element.Attribute("friction");
   if (name == "dynamics" && !has_dynamics) return;  // urdfdom would refuse it
   if (shape_in_geometry(name) != nullptr) return write_stand_in(printer);
+  if (name == "limit") return write_limit(printer, &element);
   printer.OpenElement(name.c_str());
   if (name == "joint") {
     write_joint(printer, element, rule);
-  } else if (name == "limit") {
-    write_limit(printer, element);
+  } else if (name == "inertial") {
+    const XMLElement* origin = element.FirstChildElement("origin");
+    if (origin != nullptr) write(printer, *origin, *rule.child("origin"));
+    write_inertial(printer, element);
   } else {
     write_attributes(printer, element, rule);
     write_children(printer, element, rule);

@@ -15,14 +15,14 @@ ElementRule origin() {
 
 ElementRule inertial() {
   const ElementRule mass = {
-      .name = "mass", .occurs = Occurs::once, .numbers = {{"value", 1, required}}};
+      .name = "mass", .occurs = Occurs::at_most_once, .numbers = {{"value", 1, required}}};
   const ElementRule inertia = {.name = "inertia",
-                               .occurs = Occurs::once,
+                               .occurs = Occurs::at_most_once,
                                .numbers = {{"ixx", 1, required},
-                                           {"ixy", 1, required},
-                                           {"ixz", 1, required},
+                                           {"ixy", 1},
+                                           {"ixz", 1},
                                            {"iyy", 1, required},
-                                           {"iyz", 1, required},
+                                           {"iyz", 1},
                                            {"izz", 1, required}}};
   return {
       .name = "inertial", .occurs = Occurs::at_most_once, .children = {origin(), mass, inertia}};

@@ -7,10 +7,15 @@ namespace {
 
 constexpr NumberRule radius = {"radius", 1, true, true}, length = {"length", 1, true, true};
 
+double size(const XMLElement& e, const char* name) {
+  const double given = number(e, name, 0);
+  return given == 0 ? least_size : given;
+}
+
 /// `length` is from end to end, of a capsule without its caps.
 template <class Round>
 Shape round(const XMLElement& e) {
-  return Round{number(e, "radius", 0), 0.5 * number(e, "length", 0)};
+  return Round{size(e, "radius"), 0.5 * size(e, "length")};
 }
 
 const ShapeElement* find(const std::string& name, bool ShapeElement::* is_there) {
@@ -26,13 +31,14 @@ const std::vector<ShapeElement>& shape_elements() {
   static const std::vector<ShapeElement> all = {
       {.name = "sphere",
        .sizes = {radius},
-       .read = [](const XMLElement& e) -> Shape { return Sphere{number(e, "radius", 0)}; },
+       .read = [](const XMLElement& e) -> Shape { return Sphere{size(e, "radius")}; },
        .in_geometry = true,
        .in_block = false},
       {.name = "box",
        .sizes = {{"size", 3, true, true}},
        .read = [](const XMLElement& e) -> Shape {
-         return Box{0.5 * vector(e, "size", Vec3::Zero())};
+         const Vec3 given = vector(e, "size", Vec3::Zero());
+         return Box{0.5 * (given.array() == 0).select(Vec3::Constant(least_size), given)};
        },
        .in_geometry = true,
        .in_block = false},

@@ -9,6 +9,9 @@
 
 namespace saltus::reader {
 
+/// [m] what a size of 0 below <geometry> is read as: a point, a plate.
+constexpr double least_size = 1e-5;
+
 struct ShapeElement {
   const char* name;
   std::vector<NumberRule> sizes;

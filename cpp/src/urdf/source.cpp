@@ -7,6 +7,7 @@
 
 #include "saltus/error.hpp"
 #include "saltus/model/model.hpp"
+#include "urdf/encoding.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -88,13 +89,23 @@ Source read_path(const std::string& path, const std::string& format) {
   return {path, fs::absolute(path, error).lexically_normal().parent_path(), read_file(path)};
 }
 
+void decode(Source& source, Origin origin) {
+  try {
+    Decoded decoded = decode(source.text, origin);
+    source.text = std::move(decoded.text);
+    if (!decoded.flaw.empty()) source.flaw = source.label + ": " + decoded.flaw;
+  } catch (const ModelError& error) {
+    throw ModelError(source.label + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 Source read_source(const std::string& path_or_text, const std::string& format) {
   std::error_code error;
-  Source source = is_text(path_or_text)
-                      ? Source{format + " text", fs::current_path(error), path_or_text}
-                      : read_path(path_or_text, format);
+  const bool in_memory = is_text(path_or_text);
+  Source source = in_memory ? Source{format + " text", fs::current_path(error), path_or_text}
+                            : read_path(path_or_text, format);
   if (source.text.find_first_not_of(white_space) == std::string::npos) {
     throw ModelError(source.label + ": the file is empty");
   }
@@ -102,9 +113,10 @@ Source read_source(const std::string& path_or_text, const std::string& format) {
     throw ModelError(source.label + ": more than " + std::to_string(max_size >> 20) +
                      " MiB, the most that is read as " + format);
   }
+  decode(source, in_memory ? Origin::memory : Origin::file);
   if (source.text.find('\0') != std::string::npos) {
     throw ModelError(source.label + ": not a text file (it contains zero bytes); " + format +
-                     " is XML in UTF-8 or ASCII");
+                     " is XML");
   }
   return source;
 }

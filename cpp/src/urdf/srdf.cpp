@@ -14,7 +14,9 @@ using LinkPairs = std::set<std::pair<std::string, std::string>>;  // the lesser 
 /// One SRDF file beside the robot's URDF.
 class Srdf {
  public:
-  Srdf(const Source& source, const Document& urdf) : document_(source), urdf_(urdf) {}
+  Srdf(const Source& source, const Document& urdf) : document_(source), urdf_(urdf) {
+    check_expanded(document_.robot());
+  }
 
   /// As MoveIt has it: what is disabled by name is disabled, whatever is enabled.
   LinkPairs excluded() {
@@ -39,8 +41,24 @@ class Srdf {
   }
 
  private:
+  void check_expanded(const XMLElement& element) const {
+    for (auto e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      const std::string name = e->Name();
+      if (name.rfind("xacro:", 0) == 0) {
+        document_.fail(*e, {name, ""},
+                       "is of a xacro file, which is to be expanded first: " +
+                           std::string("xacro FILE.xacro > FILE.srdf"));
+      }
+      check_expanded(*e);
+    }
+  }
+
   std::string given(const XMLElement& element, const char* name) const {
     const std::string value = attribute(element, name);
+    if (has_xacro(value)) {
+      document_.fail(element, {element.Name(), ""},
+                     "has " + std::string(name) + "=" + in_quotes(value) + ": " + xacro_expression);
+    }
     if (value.empty()) {
       document_.fail(element, {element.Name(), ""}, "is without attribute " + in_quotes(name));
     }
@@ -76,8 +94,12 @@ class Srdf {
 
 }  // namespace
 
-void add_srdf(const std::string& path_or_text, const Document& urdf, ModelBuilder& builder) {
-  Srdf srdf(read_source(path_or_text, "SRDF"), urdf);
+void add_srdf(const std::string& path_or_text, const Document& urdf, bool strict,
+              ModelBuilder& builder) {
+  const Source source = read_source(path_or_text, "SRDF");
+  if (!source.flaw.empty() && strict) throw ModelError(source.flaw);
+  if (!source.flaw.empty()) builder.add_warning(source.flaw);
+  Srdf srdf(source, urdf);
   for (const auto& [a, b] : srdf.excluded()) builder.add_body_exclusion(a, b);
   const std::string warning = srdf.warning();
   if (!warning.empty()) builder.add_warning(warning);

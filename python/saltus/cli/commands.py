@@ -11,8 +11,8 @@ from pathlib import Path
 
 import saltus
 from saltus.plots.figure import new_figure
-from saltus.records.files import check_folder
 from saltus.records.impacts import count_line
+from saltus.records.replace import check_folder, check_target
 from saltus.records.tables import counted
 
 MOST_IMPACTS = 12  # lines of the table of impacts
@@ -57,8 +57,10 @@ def cmake_dir(_: argparse.Namespace) -> int:
 
 def simulate(chosen: argparse.Namespace) -> int:
     """Run a model, print its impacts and energy error, write what is asked for."""
-    for path in (chosen.out, chosen.plot, chosen.plot_impacts):
-        if path is not None:  # before a long run, not after it
+    if chosen.out is not None:  # before a long run, not after it
+        check_target(chosen.out)
+    for path in (chosen.plot, chosen.plot_impacts):
+        if path is not None:
             check_folder(path)
     for path in (chosen.plot, chosen.plot_impacts):
         if path is not None:
@@ -144,6 +146,9 @@ def _load(chosen: argparse.Namespace) -> saltus.Model:
         srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
         contact=chosen.contact,
         floor=chosen.floor,
+        visuals=False,
+        inertia=chosen.inertia,
+        strict=chosen.strict,
     )
 
 

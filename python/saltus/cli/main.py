@@ -155,6 +155,13 @@ def _add_loading(parser: argparse.ArgumentParser) -> None:
     )
     add("--srdf", metavar="FILE", help="SRDF file that says which links never collide")
     add("--no-meshes", action="store_true", help="collision meshes are not used")
+    add(
+        "--inertia",
+        choices=[use.name for use in saltus.InertiaUse],
+        default=saltus.InertiaUse.checked.name,
+        help="where inertias of links come from; default: %(default)s",
+    )
+    add("--strict", action="store_true", help="what is wrong in the file is an error, no warning")
 
 
 def _show_warning(

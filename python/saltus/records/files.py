@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import os
-from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from saltus._core import (
     ContactProperties,
-    Convex,
-    HalfSpace,
     ImpactLaw,
     ImpactOrder,
     ImpactProblem,
+    InertiaUse,
     JointEffects,
     JointType,
     MeshUse,
@@ -27,6 +25,8 @@ from saltus._core import (
     read_urdf,
 )
 from saltus.records.recording import Recording
+from saltus.records.replace import replacing
+from saltus.records.stored import Stored
 from saltus.records.tables import (
     ARRAYS,
     CONTACT,
@@ -36,8 +36,9 @@ from saltus.records.tables import (
     LISTED_PAIRS,
     NUMBERS,
     SETTLING,
-    fallbacks_of_file,
+    SOURCES,
 )
+from saltus.records.urdf_options import urdf_options
 from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
@@ -53,31 +54,12 @@ OPTIONS = ("h", "collisions", *BOUNDS)
 Kind = TypeVar("Kind", bound=Recording)
 
 
-class UrdfOptions(TypedDict):
-    """The options of `load_urdf` that change what a model consists of."""
-
-    root_joint: JointType
-    solver: TreeSolver
-    meshes: MeshUse
-    contact: ContactProperties | None
-    floor: bool
-    effects: JointEffects
-
-
 def save(run: Recording, path: str | os.PathLike[str]) -> None:
     """Write a trajectory; see `Trajectory.save`."""
     import h5py
 
-    check_folder(path)
-    path = Path(path)
-    # Under another name first: a failure leaves no half file, and an older one stays whole.
-    part = path.with_name(path.name + ".part")
-    try:
-        with h5py.File(part, "w") as file:
-            _write(run, file)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    with replacing(path) as part, h5py.File(part, "w") as file:
+        _write(run, file)
 
 
 def read(kind: type[Kind], path: str | os.PathLike[str], model: Model | None) -> Kind:
@@ -89,18 +71,12 @@ def read(kind: type[Kind], path: str | os.PathLike[str], model: Model | None) ->
         raise ModelError(f"{path}: there is no such file")
     try:
         with h5py.File(path, "r") as file:
-            return _read(kind, file, path, model)
-    except (OSError, KeyError) as error:
+            return _read(kind, Stored(file, path), model)
+    except ModelError:
+        raise
+    except (OSError, LookupError, TypeError, ValueError, RuntimeError, MemoryError) as error:
+        # What HDF5 itself does not like, and what none of the checks foresaw.
         raise ModelError(f"{path} is no trajectory that saltus can read: {error}") from None
-
-
-def check_folder(path: str | os.PathLike[str]) -> None:
-    """Raise ModelError where no file can be written."""
-    path = Path(path)
-    if path.is_dir():
-        raise ModelError(f"{path} is a folder; a file is to be written")
-    if not path.absolute().parent.is_dir():
-        raise ModelError(f"{path}: there is no folder {path.parent}")
 
 
 def _write(run: Recording, file: h5py.File) -> None:
@@ -134,7 +110,7 @@ def _write(run: Recording, file: h5py.File) -> None:
     file["impacts"] = run.impacts.astype(np.dtype(fields))
     for name in NAMES:
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
-    options = None if run.model is None else _urdf_options(run.model)
+    options = None if run.model is None else urdf_options(run.model)
     if run.model is None or options is None:
         file.attrs["model"] = "not in this file: it was built in code"
         return
@@ -145,79 +121,112 @@ def _write(run: Recording, file: h5py.File) -> None:
     file.attrs["meshes"] = options["meshes"].name
     file.attrs["floor"] = options["floor"]
     file.attrs["effects"] = options["effects"].value
+    file.attrs["inertia"] = options["inertia"].name
     if options["contact"] is not None:
         file.attrs["restitution"] = options["contact"].restitution
         file.attrs["friction"] = options["contact"].friction
     file.create_dataset("urdf", data=run.model.source, dtype=text)
 
 
-def _read(kind: type[Kind], file: h5py.File, path: Path, model: Model | None) -> Kind:
-    if file.attrs.get("format") != FORMAT:
-        raise ModelError(f"{path} holds no trajectory of saltus")
-    if file.attrs["version"] > VERSION:
+def _read(kind: type[Kind], file: Stored, model: Model | None) -> Kind:
+    if file.attribute("format", "") != FORMAT:
+        raise ModelError(f"{file.path} holds no trajectory of saltus")
+    version = file.number("version")
+    if version > VERSION:
         raise ModelError(
-            f"{path} has format version {file.attrs['version']}; this saltus {__version__} reads "
-            f"up to {VERSION}"
+            f"{file.path} has format version {version}; this saltus {__version__} reads up to "
+            f"{VERSION}"
         )
-    arrays: dict[str, Any] = {name: file[name][()] for name in ARRAYS}
-    arrays["impulses"] = _impulses(file["impulses"][()])
-    arrays["impacts"] = file["impacts"][()].astype(IMPACT)
-    settlings = file["settlings"][()] if "settlings" in file else []  # older files have none
-    arrays["settlings"] = np.asarray(settlings, SETTLING)
-    arrays["fallbacks"] = fallbacks_of_file(file.get("fallbacks"))
-    if "contacts" in file:
-        arrays["recorded_contacts"] = file["contacts"][()].astype(CONTACT)
-    for name in ("control", "work"):
-        if name in file:
-            arrays[f"recorded_{name}"] = file[name][()]
-    for array in arrays.values():
-        array.flags.writeable = False
-    numbers: dict[str, Any] = {name: file.attrs[name].item() for name in NUMBERS}
-    certificates = tuple(file["certificates"].asstr()[()]) if "certificates" in file else ()
-    options = {name: file.attrs[name].item() for name in OPTIONS if name in file.attrs}
-    options.setdefault("max_halvings", 0)  # files of before have no such steps
-    options.setdefault("strict", True)
-    coordinates = tuple(file["coordinate_names"].asstr()[()])
-    _refuse_angles(coordinates, file.attrs["version"], path)
+    coordinates = file.names("coordinate_names")
+    _refuse_angles(coordinates, version, file.path)
     velocities = coordinates  # of files of version 1
     if "velocity_names" in file:
-        velocities = tuple(file["velocity_names"].asstr()[()])
-    pairs = tuple(file["pair_names"].asstr()[()])
+        velocities = file.names("velocity_names")
+    pairs = file.names("pair_names")
+    certificates = file.names("certificates") if "certificates" in file else ()
+    arrays = _arrays(file, len(coordinates), len(velocities), len(pairs))
+    if certificates and len(certificates) != len(arrays["impacts"]):
+        file.fail('dataset "certificates"', "has not as many entries as there are impacts")
     if model is None and "urdf" in file:
-        builder = read_urdf(
-            file["urdf"].asstr()[()],
-            gravity=file.attrs["gravity"],
-            root_joint=JointType[file.attrs["root_joint"]],
-            solver=TreeSolver[file.attrs.get("solver", "automatic")],
-            meshes=MeshUse[file.attrs.get("meshes", "none")],
-            contact=_contact(file),
-            floor=bool(file.attrs.get("floor", False)),
-            effects=JointEffects(int(file.attrs.get("effects", 0))),  # older files: none acted
-        )
-        model = build_quietly(builder)
+        model = _model(file)
         if set(pairs) <= set(model.limit_names) and model.n_pairs <= LISTED_PAIRS:
             model = model.without_collisions()
     if model is not None:
-        _check_model(model, coordinates, pairs, path)
-    if "control_names" in file:
-        arrays["control_names"] = tuple(file["control_names"].asstr()[()])
+        _check_model(model, coordinates, pairs, file.path)
+    arrays["control_names"] = file.names("control_names") if "control_names" in file else ()
+    columns = len(arrays["control_names"])
+    for name, width in (("control", columns), ("work", columns + len(SOURCES))):
+        if name in file:
+            arrays[f"recorded_{name}"] = file.array(name, (len(arrays["t"]), width))
     return kind(
         model=model,
-        options=_step_options(file, options),
+        options=_step_options(file),
         coordinate_names=coordinates,
         velocity_names=velocities,
         pair_names=pairs,
         certificates=certificates,
         **arrays,
-        **numbers,
+        **{name: file.number(name) for name in NUMBERS},
     )
 
 
-def _contact(file: h5py.File) -> ContactProperties | None:
-    if "friction" not in file.attrs:
+def _arrays(file: Stored, n_q: int, n_v: int, pairs: int) -> dict[str, Any]:
+    """Read all arrays and tables, and make them read-only."""
+    rows = len(file.array("t", (None,)))
+    if rows == 0:
+        file.fail('dataset "t"', "has no rows")
+    columns: dict[str, int] = {"q": n_q, "v": n_v, "p": n_v}
+    arrays: dict[str, Any] = {
+        name: file.array(name, (rows, columns[name]) if name in columns else (rows,))
+        for name in ARRAYS
+    }
+    impacts = arrays["impacts"] = file.table("impacts", IMPACT, {})
+    nowhere = {"tangential": 0.0, "point": np.nan, "normal": np.nan}  # of older files
+    impulses = arrays["impulses"] = file.table("impulses", IMPULSE, nowhere)
+    unknown = {"energy": 0.0, "pair": -1}
+    arrays["settlings"] = file.table("settlings", SETTLING, {}, optional=True)
+    arrays["fallbacks"] = file.table("fallbacks", FALLBACK, unknown, optional=True)
+    if "contacts" in file:
+        arrays["recorded_contacts"] = file.table("contacts", CONTACT, {})
+    for name in ("impulses", "settlings", "fallbacks", "recorded_contacts"):
+        if name in arrays:
+            least = -1 if name in ("settlings", "fallbacks") else 0
+            stored = name.removeprefix("recorded_")
+            file.check_indices(stored, "pair", arrays[name]["pair"], least, pairs)
+    check = file.check_indices
+    check("impulses", "impact", impulses["impact"], 0, len(impacts))
+    check("impacts", "law", impacts["law"].astype(int), 0, len(ImpactLaw))
+    check("impacts", "first", impacts["first"], 0, len(impulses) + 1)
+    check("impacts", "count", impacts["count"], 0, len(impulses) + 1)
+    check("impacts", "first + count", impacts["first"] + impacts["count"], 0, len(impulses) + 1)
+    if "recorded_contacts" in arrays:
+        check("contacts", "impact", arrays["recorded_contacts"]["impact"], -1, len(impacts))
+    for array in arrays.values():
+        array.flags.writeable = False
+    return arrays
+
+
+def _model(file: Stored) -> Model:
+    """Make the model anew of its text; its visuals are read as `load_urdf` does."""
+    builder = read_urdf(
+        file.text("urdf"),
+        gravity=np.asarray(file.file.attrs["gravity"]),
+        root_joint=file.member("root_joint", JointType),
+        solver=file.member("solver", TreeSolver, TreeSolver.automatic),
+        meshes=file.member("meshes", MeshUse, MeshUse.none),
+        contact=_contact(file),
+        floor=bool(file.number("floor", False)),
+        inertia=file.member("inertia", InertiaUse, InertiaUse.checked),
+        effects=JointEffects(int(file.number("effects", 0))),  # older files: none acted
+    )
+    return build_quietly(builder)
+
+
+def _contact(file: Stored) -> ContactProperties | None:
+    if "friction" not in file.file.attrs:
         return None
     return ContactProperties(
-        restitution=file.attrs["restitution"].item(), friction=file.attrs["friction"].item()
+        restitution=file.number("restitution"), friction=file.number("friction")
     )
 
 
@@ -232,20 +241,19 @@ def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> No
             )
 
 
-def _impulses(stored: np.typing.NDArray[np.void]) -> np.typing.NDArray[np.void]:
-    impulses = np.zeros(len(stored), IMPULSE)  # older files say nothing of friction
-    impulses["point"] = impulses["normal"] = np.nan  # nor where impulses act
-    for name in stored.dtype.names or ():
-        impulses[name] = stored[name]
-    return impulses
-
-
-def _step_options(file: h5py.File, numbers: dict[str, Any]) -> StepOptions:
-    law = ImpactLaw[file.attrs["law"]]
-    order = ImpactOrder[file.attrs.get("order", "fastest")]
-    chosen = _lost_law if law is ImpactLaw.custom else law
-    certify = bool(file.attrs.get("certify", False))
-    return StepOptions(law=chosen, order=order, certify=certify, **numbers)
+def _step_options(file: Stored) -> StepOptions:
+    older = {"max_halvings": 0, "strict": True}  # files of before have no such steps
+    given = {name for name in OPTIONS if name in file.file.attrs} | set(older)
+    numbers = {name: file.number(name, older.get(name)) for name in OPTIONS if name in given}
+    if not numbers.get("h", 1.0) > 0:
+        file.fail('attribute "h"', f"is {numbers['h']}; a step is above 0")
+    law = file.member("law", ImpactLaw)
+    return StepOptions(
+        law=_lost_law if law is ImpactLaw.custom else law,
+        order=file.member("order", ImpactOrder, ImpactOrder.fastest),
+        certify=bool(file.number("certify", False)),
+        **numbers,
+    )
 
 
 def _lost_law(_: ImpactProblem) -> np.typing.NDArray[np.float64]:
@@ -266,51 +274,3 @@ def _check_model(
                 f"the run in {path} has the {what} {', '.join(own) or 'none'}; the model has "
                 f"{', '.join(others) or 'none'}"
             )
-
-
-def _urdf_options(model: Model) -> UrdfOptions | None:
-    """Return the options with which `load_urdf` makes this model of its text.
-
-    None where there is no text, or where the model was changed after it was read, or needs other
-    files (meshes, SRDF): links, joints, shapes, pairs or contacts then differ. A solver that makes
-    the same of its trees gives the same bits.
-    """
-    if not model.source:
-        return None
-    # The joint that load_urdf added, if it did, is the only one below the model's root.
-    types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
-    wanted = _parts(model)
-    floors = {False, any(isinstance(s.shape, HalfSpace) for s in model.shapes)}
-    acting = (JointEffects.all, JointEffects.none)
-    for floor, meshes, root_joint, solver, effects in product(
-        floors, (MeshUse.none, MeshUse.hull), (JointType.fixed, *types), TreeSolver, acting
-    ):
-        options: UrdfOptions = {
-            "root_joint": root_joint,
-            "solver": solver,
-            "meshes": meshes,
-            "contact": model.default_contact,
-            "floor": floor,
-            "effects": effects,
-        }
-        try:
-            again = build_quietly(read_urdf(model.source, **options))
-        except ModelError:
-            continue
-        if _parts(again if model.n_pairs else again.without_collisions()) == wanted:
-            return options
-    return None
-
-
-def _parts(model: Model) -> tuple[object, ...]:
-    # A mesh that is in no pair has no part in the motion, and its file may be gone.
-    shapes = [s.name for s in model.shapes if not isinstance(s.shape, Convex)]
-    # A half-space that was added may have the name of load_urdf's floor and be elsewhere.
-    planes = [i for i, s in enumerate(model.shapes) if isinstance(s.shape, HalfSpace)]
-    poses = [model.shape_poses(model.neutral()[np.newaxis], i).tolist() for i in planes]
-    names = model.link_names, model.joint_names, model.coordinate_names, shapes, poses
-    pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
-    if model.n_pairs <= LISTED_PAIRS:
-        pairs = [(n, repr(model.contact_properties(i))) for i, n in enumerate(model.pair_names)]
-    names = (*names, model.limit_names, model.control_names, model.damping.tolist())
-    return *names, pairs, [repr(trees) for trees in model.solvers]

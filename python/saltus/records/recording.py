@@ -24,6 +24,7 @@ from saltus.records.tables import (
     counted,
     index_of,
     names_of_pairs,
+    row_of,
 )
 
 if TYPE_CHECKING:
@@ -172,11 +173,12 @@ class Recording:
 
     def state(self, row: int) -> State:
         """Return the state of a row; negative rows count from the end."""
+        row = row_of(row, len(self), "row")
         return State(float(self.t[row]), self.q[row], self.p[row])
 
     def impact(self, index: int) -> Impact:
         """Return one impact with its pairs by name; it prints as a table of its impulses."""
-        row = self.impacts[index]
+        row = self.impacts[row_of(index, len(self.impacts), "impact")]
         own = self.impulses[row["first"] : row["first"] + row["count"]]
         return Impact(
             float(row["t"]),

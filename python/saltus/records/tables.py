@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from saltus._core import Model, ModelError
-
-if TYPE_CHECKING:
-    import h5py
 
 Array = npt.NDArray[np.float64]
 
@@ -62,15 +60,18 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
 
 
-def fallbacks_of_file(stored: h5py.Dataset | None) -> npt.NDArray[np.void]:
-    """Return the table of a file, whose older versions have fewer columns or none."""
-    if stored is None:
-        return np.zeros(0, FALLBACK)
-    rows = np.zeros(len(stored), FALLBACK)
-    rows["pair"] = -1
-    for name in stored.dtype.names:
-        rows[name] = stored[name]
-    return rows
+def row_of(index: object, count: int, what: str) -> int:
+    """Return an index as a row of `count`; negative ones count from the end.
+
+    Raises TypeError where it is no whole number, IndexError where there is no such row.
+    """
+    try:
+        row = operator.index(index)  # type: ignore[arg-type]  # that is the question
+    except TypeError:
+        raise TypeError(f"{what} = {index!r} is no whole number") from None
+    if not -count <= row < count:
+        raise IndexError(f"no {what} {row}; the run has {counted(count, what)}")
+    return row
 
 
 def names_of_pairs(model: Model, *events: npt.NDArray[np.void]) -> tuple[str, ...]:

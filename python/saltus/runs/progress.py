@@ -20,6 +20,10 @@ def progress_bar(
         return nullcontext()
     if callable(progress):
         return nullcontext(progress)
+    try:
+        total = float(total)
+    except (TypeError, ValueError, OverflowError):
+        return nullcontext()  # what takes it as its duration says what is wrong
     return Bar(total, unit, always=progress is True)
 
 

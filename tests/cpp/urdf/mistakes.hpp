@@ -77,7 +77,7 @@ inline std::string edited(const Mistake& mistake) {
 
 inline void expect_error(const Mistake& mistake) {
   try {
-    read_urdf(edited(mistake));
+    read_urdf(edited(mistake), {.strict = true});
     ADD_FAILURE() << "no ModelError";
   } catch (const ModelError& error) {
     const std::string what = error.what();

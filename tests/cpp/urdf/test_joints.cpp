@@ -151,8 +151,8 @@ TEST(UrdfJoints, LimitsThatAreNotGivenAreInfiniteButPositionsAreZero) {
   EXPECT_EQ(none.damping, 0);
 
   const Coordinate some = load(one_joint("revolute", "<limit effort=\"2\"/>"))->coordinates[0];
-  EXPECT_EQ(some.lower, 0);  // the specification's default
-  EXPECT_EQ(some.upper, 0);
+  EXPECT_EQ(some.lower, -infinity);  // not the specification's default, 0: nothing would move
+  EXPECT_EQ(some.upper, infinity);
   EXPECT_EQ(some.effort, 2);
   EXPECT_EQ(some.velocity, infinity);
 
@@ -162,6 +162,29 @@ TEST(UrdfJoints, LimitsThatAreNotGivenAreInfiniteButPositionsAreZero) {
   EXPECT_EQ(written.lower, -infinity);
   EXPECT_EQ(written.upper, infinity);
   EXPECT_EQ(written.effort, infinity);
+}
+
+TEST(UrdfJoints, LimitsThatAreCrossedOrMissingAreNoneAndAWarning) {
+  for (const std::string bad : {"", "<limit lower=\"2\" upper=\"1\"/>", "<limit effort=\"2\"/>"}) {
+    const Model model = load(one_joint("revolute", bad));
+    EXPECT_EQ(model->coordinates[0].lower, -infinity);
+    EXPECT_EQ(model->coordinates[0].upper, infinity);
+    ASSERT_EQ(model->warnings.size(), 1u);
+    expect_contains(model->warnings[0], "is read as unlimited");
+    expect_error([&] { load(one_joint("revolute", bad), {.strict = true}); }, "joint", "j", {});
+  }
+}
+
+TEST(UrdfJoints, AMimicJointOfAFixedOneStandsAtItsOffset) {
+  const Model model = load(
+      robot("<link name=\"base\"/>" + ball_link("a") + ball_link("b") +
+            joint("left", "fixed", "base", "a") +
+            joint("right", "prismatic", "base", "b",
+                  "<axis xyz=\"0 0 1\"/><mimic joint=\"left\" multiplier=\"-2\" offset=\"0.5\"/>" +
+                      std::string(limit))));
+  EXPECT_EQ(model.n_q(), 0);
+  expect_near(pose_of(model, "b").p, {0, 0, 0.5});
+  expect_warning(model, {"joint \"right\" mimics joint \"left\", which is fixed", "stands at 0.5"});
 }
 
 TEST(UrdfJoints, AContinuousJointHasNoPositionLimits) {

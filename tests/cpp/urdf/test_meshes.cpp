@@ -30,7 +30,7 @@ class UrdfMeshes : public UrdfFiles {
   void expect_error(const std::string& file, const std::string& content,
                     const std::vector<std::string>& parts, const std::string& scale = "") {
     const std::string path = robot_with(file, content, scale);
-    const std::string what = message_of([&] { read_urdf(path); });
+    const std::string what = message_of([&] { read_urdf(path, {.strict = true}); });
     EXPECT_EQ(what.rfind(path + ":4: link \"body\" has a collision mesh, \"" + file, 0), 0u)
         << what;
     EXPECT_EQ(what.find(path, 1), std::string::npos) << what;  // the place is told once

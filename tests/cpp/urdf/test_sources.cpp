@@ -130,7 +130,7 @@ TEST_F(UrdfFiles, MeshesThatAreNotFoundTellWhereTheyWereSought) {
 }
 
 TEST_F(UrdfFiles, VisualMeshesAreNamedOnceIfTheyAreMissing) {
-  write("a.stl", "solid");
+  write("a.stl", binary_stl(tetrahedron()));
   EXPECT_TRUE(load(write("r.urdf", with_mesh("a.stl", "visual")))->warnings.empty());
   const std::string visual = "<visual><geometry><mesh filename=\"b.stl\"/></geometry></visual>";
   const Model model = load(write("r.urdf", one_joint("continuous", "", visual + visual + visual)));

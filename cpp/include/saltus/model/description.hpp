@@ -11,12 +11,22 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/model/visual.hpp"
 
 namespace saltus {
+
+/// How far the inertia of a link may be from what a body can have.
+enum class InertiaCheck {
+  strict,   ///< not at all
+  lenient,  ///< as files have it, with a warning: moments that are possible once none is changed by
+            ///< more than 2 % of the greatest, and moments without a mass of what is welded
+  as_given,  ///< moments may be anything; a warning tells of those that are impossible
+};
 
 struct LinkSpec {
   std::string name;
   BodyInertia inertia = {};  ///< in the link's frame; not used of what cannot move
+  InertiaCheck check = InertiaCheck::strict;
 };
 
 /// This joint's displacement is `multiplier * (displacement of joint) + offset`.
@@ -109,6 +119,7 @@ struct ModelDescription {
   std::vector<JointSpec> joints;
   std::vector<ActuatorSpec> actuators;
   std::vector<ShapeSpec> shapes;
+  std::vector<Visual> visuals;
   FilterSpec filter;
   MaterialSpec materials;
   std::vector<std::string> warnings;

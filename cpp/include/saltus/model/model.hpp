@@ -89,6 +89,7 @@ struct JointLimit {
 };
 
 struct ModelDescription;
+struct Visual;
 
 struct ModelData {
   std::string name;
@@ -181,7 +182,8 @@ class SALTUS_EXPORT Model {
   ContactProperties contact_properties(int pair) const;  ///< by the materials of its shapes
   /// How many pairs there are of each two kinds of shape, by shape_name in alphabetical order.
   std::map<std::pair<std::string, std::string>, int> pair_kinds() const;
-  std::vector<TreeSolution> solvers() const;  ///< how steps solve its trees
+  std::vector<TreeSolution> solvers() const;   ///< how steps solve its trees
+  const std::vector<Visual>& visuals() const;  ///< what its links look like
 
   int joint(const std::string& name) const;  ///< index in the joints, or ModelError with the names
 

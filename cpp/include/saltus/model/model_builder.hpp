@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "saltus/model/description.hpp"
@@ -62,6 +63,8 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_joint(const JointSpec& joint);
   /// Shapes are named after their link, "#2" added for its second, and so on.
   ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
+  /// What a link looks like; see check_visual for what is refused.
+  ModelBuilder& add_visual(const Visual& visual);
   /// The solid below the plane normal.x = offset, fixed to the world; `name` as in pair names.
   ModelBuilder& add_half_space(const std::string& name, const Vec3& normal, double offset = 0);
   /// Link, shape and joint in one; nothing is added where it throws.
@@ -137,19 +140,36 @@ class SALTUS_EXPORT ModelBuilder {
   void check() const;  ///< the checks of build() alone
   Model build() const;
 
+  /// The description once its local checks are made again: for what comes from elsewhere.
+  /// @throws ModelError as the add_ and set_ that it was made by would.
+  static ModelDescription checked(const ModelDescription& description);
+
   const std::vector<std::string>& warnings() const { return d_.warnings; }
   const ModelDescription& description() const { return d_; }
 
  private:
   static constexpr double no_bound = std::numeric_limits<double>::infinity();
   JointSpec& joint(const std::string& name);
+  /// The names of the first so many: adding one is then no walk over all.
+  struct KnownNames {
+    std::unordered_set<std::string> names;
+    std::size_t count = 0;
+  };
+  template <class Items>
+  static bool is_taken(const Items& items, const std::string& name, KnownNames& known);
+  template <class Items>
+  static void check_new_name(const Items& items, const std::string& element,
+                             const std::string& name, KnownNames& known);
 
   ModelDescription d_;
+  KnownNames links_, joints_;
 };
 
 /// @throws ModelError where no link can have this mass or inertia: negative mass, not symmetric,
-/// an inertia without mass. Principal moments are judged by build(), which knows what is welded to
-/// what: many robots' files have links that are impossible alone (1e-6 kg as a place holder).
-SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link);
+/// an inertia without mass (unless the check is lenient, then build() looks at it). Principal
+/// moments are judged by build(), which knows what is welded to what: many robots' files have links
+/// that are impossible alone (1e-6 kg as a place holder).
+SALTUS_EXPORT void check_inertia(const BodyInertia& inertia, const std::string& link,
+                                 InertiaCheck check = InertiaCheck::strict);
 
 }  // namespace saltus

@@ -19,13 +19,20 @@
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
 // Collision meshes (STL, OBJ, DAE) become their convex hulls, and one warning names them; one tells
-// of those that are not found. A mesh that is there and cannot be read is an error.
+// of those that are not found. A mesh that is there and cannot be read is an error. Visuals are
+// kept for pictures; those that are missing or broken are left out, which one warning tells.
+//
+// Wrong, and read with a warning unless `strict` is said, as other readers do: an inertia without
+// mass of what is fixed or welded; moments of inertia that are off by 2 % of the greatest; sizes of
+// 0 (contact points), which are 10^-5 m; limits that are missing or crossed, which are none;
+// `<mimic>` of a joint that is fixed, which stands still, or is not there; names with expressions
+// of xacro; zero bytes at the end; bytes that are no UTF-8. Other encodings are read by the XML
+// declaration. Warnings of a kind are one line: the first, and how many more.
 //
 // Not used, and named in a warning: shapes without a gap function, elements and attributes that
-// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: visuals (but one warning
-// tells of their missing meshes), materials, transmissions, safety controllers, limits of
-// acceleration and jerk, and other programs' elements (gazebo, sensor, `ns:name`). The text itself
-// stays available as the model's `source`.
+// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: transmissions, safety
+// controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
+// `ns:name`). The text itself stays available as the model's `source`.
 #pragma once
 
 #include <optional>
@@ -38,6 +45,15 @@ namespace saltus {
 
 /// What becomes of collision meshes: convex solids around them, or nothing.
 enum class MeshUse { hull, none };
+
+/// Where the inertias of links come from.
+enum class InertiaUse {
+  checked,   ///< the file; those that no body can have are refused, but see below
+  as_given,  ///< the file, whatever the moments are
+  /// Links without a mass get that of their collision shapes, or where there are none of their
+  /// visuals, filled with water (1000 kg/m^3).
+  from_shapes,
+};
 
 struct UrdfOptions {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
@@ -62,6 +78,11 @@ struct UrdfOptions {
   std::optional<ContactProperties> contact = {};
   /// Adds the half-space z <= 0, as ModelBuilder::add_floor does, unless the file has it.
   bool floor = false;
+  /// Reads what links look like, Model::visuals; it takes time where they are meshes.
+  bool visuals = true;
+  InertiaUse inertia = InertiaUse::checked;
+  /// Refuses what is wrong and else read with a warning, see above.
+  bool strict = false;
 };
 
 /// Reads a URDF file, or URDF text where the argument begins with '<' (after white space), into a

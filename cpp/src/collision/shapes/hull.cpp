@@ -159,15 +159,39 @@ Vec3 normal_of(const std::vector<int>& face, const std::vector<Vec3>& points) {
   return area.normalized();
 }
 
-/// Faces, with vertices numbered as the corners are; offsets so that no vertex is outside.
+/// Faces, with vertices numbered as the corners are, without their offsets.
 void add_faces(Hull& hull, const Corners& corners, double size) {
   std::vector<Vec3> scaled = hull.vertices;  // by a power of 2, so without rounding
   for (Vec3& v : scaled) v /= size;
   for (const std::vector<int>& face : corners) {
-    const Vec3 normal = normal_of(face, scaled);
-    double offset = -std::numeric_limits<double>::infinity();
-    for (const Vec3& v : hull.vertices) offset = std::fmax(offset, normal.dot(v));
-    hull.faces.push_back({normal, offset, face});
+    hull.faces.push_back({normal_of(face, scaled), 0, face});
+  }
+}
+
+/// The greatest normal.v, uphill from a corner of the face: from vertex to neighbour.
+double climb(const Hull& hull, const Hull::Face& face) {
+  int best = face.corners[0];
+  double offset = face.normal.dot(hull.vertices[best]);
+  for (int at = -1; at != best;) {
+    at = best;
+    for (int k = hull.first_neighbour[at]; k < hull.first_neighbour[at + 1]; ++k) {
+      const double other = face.normal.dot(hull.vertices[hull.neighbour[k]]);
+      if (!(other > offset)) continue;
+      offset = other;
+      best = hull.neighbour[k];
+    }
+  }
+  return offset;
+}
+
+/// So that no vertex is outside, to rounding where they are too many to look at all for all faces.
+void set_offsets(Hull& hull) {
+  constexpr std::size_t most = 10'000'000;
+  const bool all = hull.vertices.size() * hull.faces.size() <= most;
+  for (Hull::Face& face : hull.faces) {
+    face.offset = climb(hull, face);
+    if (!all) continue;
+    for (const Vec3& v : hull.vertices) face.offset = std::fmax(face.offset, face.normal.dot(v));
   }
 }
 
@@ -238,6 +262,7 @@ bool assemble(Hull& hull, Corners faces, const Cloud& cloud, const std::vector<V
   add_faces(hull, faces, cloud.size);
   if (!add_edges(hull)) return false;
   add_neighbours(hull);
+  set_offsets(hull);
   // facets joined of several are as thick as the sum of what they were joined by
   return is_sound(hull, 100 * thickness * cloud.size);
 }

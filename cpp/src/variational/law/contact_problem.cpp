@@ -49,6 +49,21 @@ void check_contacts(const Eigen::Ref<const MatX>& N, const VecRef& restitution) 
   }
 }
 
+/// Products of four of these numbers, which the laws take, are then neither infinite nor 0.
+void check_size(const ContactProblem& problem) {
+  constexpr double least = 1e-75, most = 1e75;
+  for (Eigen::Index i = 0; i < problem.G.rows(); ++i) {
+    const double g = problem.G(i, i);
+    if (g >= least && g <= most && problem.G.row(i).allFinite()) continue;
+    std::ostringstream text;
+    text << "contact " << i << " has the inverse mass N M^-1 N' = " << g
+         << "; it is from 1e-75 to 1e75: scale M and N";
+    throw ModelError(text.str());
+  }
+  if (problem.u.allFinite() && std::isfinite(problem.speed)) return;
+  throw ModelError("v'M v or N v is not finite: scale M, N and v");
+}
+
 }  // namespace
 
 ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>& N,
@@ -59,11 +74,15 @@ ContactProblem contact_problem(const Eigen::Ref<const MatX>& M, const Eigen::Ref
   if (llt.info() != Eigen::Success) throw ModelError("M is not positive definite");
   ContactProblem out;
   out.speed = std::sqrt(std::max(0.0, v.dot(M * v)));
-  if (N.rows() == 0) return out;
+  if (N.rows() == 0) {
+    check_size(out);
+    return out;
+  }
   out.columns = llt.solve(N.transpose());
   const MatX product = N * out.columns;
   out.G = 0.5 * (product + product.transpose());
   out.u = N * v;
+  check_size(out);
   out.rest = relative_rest * out.speed * out.G.diagonal().array().sqrt();
   return out;
 }
