@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from saltus import plots
+from saltus import plots, view
 from saltus._core import Model
 from saltus.records import files
 from saltus.records.recording import Recording
@@ -120,6 +122,63 @@ class Trajectory(Recording):
         matplotlib.figure.Figure
         """
         return plots.plot_impacts(self, path, index=index)
+
+    def html(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        pairs: Sequence[str] | None = None,
+        dark: bool | None = None,
+        autoplay: bool = False,
+    ) -> str:
+        """Make one HTML file that plays the run in a browser, without a server or a network.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            File to write.
+        pairs : sequence of str, optional
+            Pairs of shapes, "a ~ b", whose gap the page plots. None: those that met, then others.
+        dark : bool, optional
+            True, False: dark, light. None: as the reader's system.
+        autoplay : bool
+            Whether it plays when it is opened.
+
+        Returns
+        -------
+        str
+            The text of the file.
+
+        Raises
+        ------
+        ModelError
+            Where the run has no model, where no file can be written, on names of pairs that do not
+            exist.
+        """
+        return view.html(self, path, pairs=pairs, dark=dark, autoplay=autoplay)
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Path:
+        """Open the run in a browser, and print where its page is.
+
+        Parameters
+        ----------
+        path : str or os.PathLike, optional
+            File for the page; None: one among the temporary files.
+
+        Returns
+        -------
+        pathlib.Path
+            Of the page.
+
+        Raises
+        ------
+        ModelError
+            As `html`.
+        """
+        return view.show(self, path)
+
+    def _repr_html_(self) -> str:
+        return view.notebook_html(self)
 
 
 def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Trajectory:

@@ -1,0 +1,5 @@
+"""Runs to look at: a page of one file that plays in a browser, videos made from it, live pages."""
+
+from saltus.view.show import html, notebook_html, show
+
+__all__ = ["html", "notebook_html", "show"]
