@@ -29,7 +29,18 @@ ROOMS["trajectory"] = {"runs"}
 ORDER = {
     "records": ["tables", "impacts", "recording", "files"],
     "plots": ["figure", "cradle", "run", "impacts", "pairs"],
-    "view": ["arrays", "instants", "shapes", "parts", "scene", "page", "browser", "show"],
+    "view": [
+        "arrays",
+        "instants",
+        "shapes",
+        "parts",
+        "scene",
+        "page",
+        "browser",
+        "server",
+        "video",
+        "show",
+    ],
     "runs": ["trajectory", "batch_trajectory", "starts", "progress", "simulate", "batch"],
     "cli": ["commands", "looking", "main"],
 }

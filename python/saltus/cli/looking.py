@@ -38,6 +38,9 @@ def _give(chosen: argparse.Namespace, run: saltus.Trajectory) -> None:
     if chosen.html:
         run.html(chosen.html, autoplay=True)
         print(f"page: {chosen.html}")
+    if chosen.video:
+        run.video(chosen.video, rate=chosen.rate, slow=chosen.slow)
+        print(f"video: {chosen.video}")
     if not (chosen.html or chosen.video):
         run.show()
 
