@@ -237,13 +237,13 @@ def quiet(tab: Tab) -> None:
     assert tab.requests[0].startswith("file://")
 
 
-def chromium_count() -> int:
-    """Return how many processes of Chromium live, on Linux; zombies do not."""
-    count = 0
-    for status in Path("/proc").glob("[0-9]*/status"):
+def started_with(variable: str) -> set[int]:
+    """Return the processes, on Linux, that have a variable in their environment; not zombies."""
+    found = set()
+    for environ in Path("/proc").glob("[0-9]*/environ"):
         try:
-            text = status.read_text()
-        except (FileNotFoundError, ProcessLookupError):
+            if variable.encode() in environ.read_bytes():  # empty for zombies
+                found.add(int(environ.parent.name))
+        except OSError:  # ended, or another's
             continue
-        count += "chrom" in text.split("\n", 1)[0] and "\nState:\tZ" not in text
-    return count
+    return found - {os.getpid()}
