@@ -9,6 +9,7 @@ import os
 import subprocess
 import time
 import urllib.request
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -239,11 +240,10 @@ def quiet(tab: Tab) -> None:
 
 def started_with(variable: str) -> set[int]:
     """Return the processes, on Linux, that have a variable in their environment; not zombies."""
-    found = set()
-    for environ in Path("/proc").glob("[0-9]*/environ"):
-        try:
-            if variable.encode() in environ.read_bytes():  # empty for zombies
-                found.add(int(environ.parent.name))
-        except OSError:  # ended, or another's
-            continue
-    return found - {os.getpid()}
+
+    def has(process: Path) -> bool:
+        with suppress(OSError):  # ended, or another's
+            return variable.encode() in (process / "environ").read_bytes()  # empty for zombies
+        return False
+
+    return {int(p.name) for p in Path("/proc").glob("[0-9]*") if has(p)} - {os.getpid()}

@@ -88,7 +88,7 @@ export class Items {
         items.length,
       );
       mesh.frustumCulled = false; // instances are everywhere
-      mesh.castShadow = kind !== 'frame' && alpha === 1;
+      mesh.castShadow = (kind === 'collision' || kind === 'visual') && alpha === 1; // thin ones flicker
       mesh.receiveShadow = kind !== 'frame';
       items.forEach((item, i) => {
         item.mesh = mesh;

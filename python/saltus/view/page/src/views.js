@@ -57,12 +57,12 @@ export class Views {
 
   // Distance at which all corners of the box are in the picture.
   distance(target, toward) {
-    const { camera, canvas } = this.stage;
-    const size = [canvas.clientWidth || 1, canvas.clientHeight || 1];
-    const free = [
-      1 - (this.margin.left + this.margin.right) / size[0],
-      1 - (this.margin.top + this.margin.bottom) / size[1],
-    ].map((part) => Math.max(part, 0.3));
+    const { camera, canvas, fixedSize } = this.stage;
+    const { left, right, top, bottom } = this.margin;
+    const covered = fixedSize
+      ? [0, 0]
+      : [(left + right) / (canvas.clientWidth || 1), (top + bottom) / (canvas.clientHeight || 1)];
+    const free = covered.map((part) => Math.max(1 - part, 0.3));
     const tall = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
     const half = [tall * camera.aspect * free[0], tall * free[1]];
     const right = new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
