@@ -58,10 +58,11 @@ export class Views {
   // Distance at which all corners of the box are in the picture.
   distance(target, toward) {
     const { camera, canvas, fixedSize } = this.stage;
-    const { left, right, top, bottom } = this.margin;
+    const { margin } = this;
+    const [wide, high] = [margin.left + margin.right, margin.top + margin.bottom];
     const covered = fixedSize
       ? [0, 0]
-      : [(left + right) / (canvas.clientWidth || 1), (top + bottom) / (canvas.clientHeight || 1)];
+      : [wide / (canvas.clientWidth || 1), high / (canvas.clientHeight || 1)];
     const free = covered.map((part) => Math.max(1 - part, 0.3));
     const tall = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
     const half = [tall * camera.aspect * free[0], tall * free[1]];
