@@ -10,7 +10,9 @@ import numpy as np
 import saltus
 from saltus.cli.commands import INTERRUPTED, load
 from saltus.records.files import check_folder
+from saltus.view import serve
 
+STEP, LIVE_STEP = 0.01, 1 / 120  # s; live two steps are a frame
 MOVED = 1e-6  # [rad | m] less is rest
 NUDGES = (0.3, -0.3)  # [rad | m] what a joint at rest is started with, as far as its limits allow
 
@@ -23,6 +25,8 @@ def view(chosen: argparse.Namespace) -> int:
     recorded = _is_recorded(Path(chosen.file))
     if recorded:
         _refuse_options(chosen)
+    if chosen.live:
+        return _live(chosen)
     try:
         run = saltus.load(chosen.file) if recorded else _simulated(chosen)
     except saltus.StepError as error:
@@ -32,6 +36,26 @@ def view(chosen: argparse.Namespace) -> int:
     print(run.summary())
     _give(chosen, run)
     return 0 if run.complete or recorded else INTERRUPTED
+
+
+def _live(chosen: argparse.Namespace) -> int:
+    """Simulate for the page in the browser, until it is closed."""
+    for name in ("html", "video"):
+        if getattr(chosen, name):
+            raise saltus.ModelError(f"--{name} writes a recorded run; it cannot go with --live")
+    model = load(chosen)
+    q = _start(model) | dict(chosen.q)
+    state = model.state(q, dict(chosen.v))
+
+    def opened(url: str) -> None:
+        import webbrowser
+
+        print(f"page: {url}", flush=True)
+        if not chosen.no_browser and not webbrowser.open(url):
+            print("no browser was found: open the page by hand; Ctrl-C ends it", flush=True)
+
+    serve(model, state, h=chosen.h or LIVE_STEP, opened=opened)
+    return 0
 
 
 def _give(chosen: argparse.Namespace, run: saltus.Trajectory) -> None:
@@ -115,7 +139,7 @@ def _run(chosen: argparse.Namespace, model: saltus.Model, q: dict[str, float]) -
         q=q,
         v=dict(chosen.v),
         duration=chosen.duration,
-        h=chosen.h,
+        h=chosen.h or STEP,
         certify=True,
         record_contacts=True,
     )

@@ -143,12 +143,13 @@ def _add_view(commands_of: Commands[Parser]) -> None:
         action="store_true",
         help="simulate while the page is open: joints on sliders, bodies pulled with the mouse",
     )
-    _add_start(parser)
+    add("--no-browser", action="store_true", help="with --live: print the page's address only")
+    _add_start(parser, h=None)  # live it is another
     _add_loading(parser)
     parser.set_defaults(command=looking.view)
 
 
-def _add_start(parser: Parser) -> None:
+def _add_start(parser: Parser, h: float | None = 0.01) -> None:
     add = parser.add_argument
     add(
         "--set",
@@ -169,7 +170,7 @@ def _add_start(parser: Parser) -> None:
         help="velocity at the start [rad/s | m/s]; may be repeated, the others are 0",
     )
     add("--duration", type=float, default=10.0, metavar="S", help="[s] default: %(default)s")
-    add("--h", type=float, default=0.01, metavar="S", help="[s] time step; default: %(default)s")
+    add("--h", type=float, default=h, metavar="S", help="[s] time step; default: 0.01")
 
 
 def _add_loading(parser: argparse.ArgumentParser) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 from collections.abc import Mapping
@@ -53,6 +52,8 @@ def page_of(scene: Mapping[str, Any], *, policy: str = POLICY) -> str:
     str
         HTML that asks for no other file.
     """
+    from html import escape
+
     return f"""\
 <!doctype html>
 <html lang="en">
@@ -61,7 +62,7 @@ def page_of(scene: Mapping[str, Any], *, policy: str = POLICY) -> str:
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <link rel="icon" href="data:,">
-<title>{html.escape(str(scene["title"]))} · saltus</title>
+<title>{escape(str(scene["title"]))} · saltus</title>
 </head>
 <body>
 <noscript>This page needs JavaScript.</noscript>
@@ -94,8 +95,10 @@ def in_frame(text: str, height: int) -> str:
     str
         HTML.
     """
+    from html import escape
+
     return (
-        f'<iframe srcdoc="{html.escape(text)}" title="saltus" loading="lazy" allowfullscreen '
+        f'<iframe srcdoc="{escape(text)}" title="saltus" loading="lazy" allowfullscreen '
         f'style="width: 100%; height: {height}px; border: 1px solid #8884"></iframe>'
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html as escapes
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -57,10 +56,12 @@ def show(run: Recording, path: str | os.PathLike[str] | None = None) -> Path:
 
 def notebook_html(run: Recording) -> str:
     """Return what a notebook shows of a run: its page in a frame, or one line where it has none."""
+    from html import escape
+
     if run.model is None:
-        return f"<pre>{escapes.escape(repr(run))}</pre>"
+        return f"<pre>{escape(repr(run))}</pre>"
     text = html(run)
     if len(text) > MOST_TEXT:
         words = f"{run!r}: its page has {len(text) / 1e6:.0f} MB, run.show() opens it"
-        return f"<pre>{escapes.escape(words)}</pre>"
+        return f"<pre>{escape(words)}</pre>"
     return in_frame(text, FRAME)

@@ -6,7 +6,6 @@ import math
 import os
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 from collections.abc import Iterator
@@ -137,6 +136,8 @@ class _Office:
 @contextmanager
 def _running(program: str, url: str) -> Iterator[subprocess.Popen[bytes]]:
     """Run a Chromium with a page; nothing of it is left after."""
+    import tempfile
+
     with tempfile.TemporaryDirectory(prefix="saltus-", ignore_cleanup_errors=True) as folder:
         process = subprocess.Popen(
             [*chromium_command(program, folder), url],

@@ -58,10 +58,11 @@ export class Arrows {
     this.data = data;
     this.size = size; // m of the longest arrow
     const thick = 0.035 * size;
-    const impulses = Math.min(2 * data.impulses.lambda.length, MOST);
+    const live = data.mode === 'live' ? 400 : 0;
+    const impulses = Math.max(Math.min(2 * data.impulses.lambda.length, MOST), live);
     const held = data.forces ? Math.min(longestGroup(data.forces.first), MOST) : 0;
     this.impulse = new Quiver(ARROWS.impulse, impulses, thick);
-    this.force = new Quiver(ARROWS.force, Math.max(held, data.mode === 'live' ? 200 : 0), thick);
+    this.force = new Quiver(ARROWS.force, Math.max(held, live), thick);
     this.normal = new Quiver(ARROWS.normal, impulses, thick);
     this.group = new THREE.Group();
     this.group.add(this.normal.group, this.force.group, this.impulse.group);
@@ -93,6 +94,22 @@ export class Arrows {
     this.impulse.set(this.shown.impulse ? impulses : []);
     this.normal.set(this.shown.normal ? normals : []);
     this.force.set(this.shown.force ? forces : []);
+  }
+
+  // Arrows that a program gives, in place of those of a run.
+  given(impulses, forces) {
+    this.now = [...impulses, ...forces];
+    for (const { kind, vector } of this.now) {
+      this.largest[kind] = Math.max(this.largest[kind], Math.hypot(...vector));
+    }
+    const arrow = ({ kind, point, vector }) => ({
+      at: new THREE.Vector3(...point),
+      along: new THREE.Vector3(...vector).multiplyScalar(this.size / (this.largest[kind] || 1)),
+      head: true,
+    });
+    const seen = ({ vector }) => vector.some((x) => x !== 0);
+    this.impulse.set(this.shown.impulse ? impulses.filter(seen).map(arrow) : []);
+    this.force.set(this.shown.force ? forces.filter(seen).map(arrow) : []);
   }
 
   addImpact(i, impulses, normals) {

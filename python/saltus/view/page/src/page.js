@@ -196,7 +196,7 @@ export class Page {
     });
     const canvas = this.stage.canvas;
     canvas.addEventListener('pointermove', (event) => {
-      if (event.buttons === 0) this.labels.point(event.offsetX, event.offsetY);
+      if (event.buttons === 0 && event.pointerType === 'mouse') this.labels.point(event.offsetX, event.offsetY);
     });
     canvas.addEventListener('pointerleave', () => this.labels.leave());
     canvas.addEventListener('dblclick', (event) => {
