@@ -259,7 +259,7 @@ def _scene(model: Model, parts: Parts, state: State, h: float) -> dict[str, Any]
         "version": __version__,
         "mode": "live",
         "title": model.name,
-        "summary": f"live, h = {h:g} s; closing the page ends it",
+        "summary": f"live, h = {h:.3g} s; closing the page ends it",
         "notices": [] if model.shapes else ["This model has no shapes: its joints are drawn."],
         "gravity": model.gravity.tolist(),
         "h": h,

@@ -9,7 +9,7 @@ import numpy as np
 from saltus._core import Model, State
 from saltus.records.tables import Array
 
-PULL = 9.0  # rad/s: the point follows the mouse within a fifth of a second, without swinging
+PULL = 16.0  # rad/s: the point follows within an eighth of a second; its weight keeps it 4 cm below
 FIRM = 0.02  # part of the mean mobility that directions without any get
 MOST_VELOCITIES = 300  # of models whose mobility is found; those with more use the link's mass
 

@@ -65,6 +65,7 @@ class Live {
     }
     $('single').hidden = false;
     $('single').onclick = () => this.wish({ do: 'step' });
+    $('show-normal').parentElement.hidden = true;
     $('joints').hidden = false;
     $('reset').onclick = () => this.wish({ do: 'reset' });
     $('play').disabled = false;
@@ -90,7 +91,7 @@ class Live {
       const output = document.createElement('output');
       label.textContent = name;
       label.htmlFor = input.id = `slider-${i}`;
-      Object.assign(input, { type: 'range', min: lower, max: upper, step: (upper - lower) / 1000 });
+      Object.assign(input, { type: 'range', min: lower, max: upper, step: 'any' });
       input.oninput = () => this.wish({ do: 'set', slider: i, value: Number(input.value) });
       $('sliders').append(label, input, output);
       return { input, output, unit };
@@ -141,7 +142,7 @@ class Live {
     const now = performance.now();
     if (now < this.drawn + 1000 / PLOTS) return;
     this.drawn = now;
-    Object.assign(page.clock, { start: Math.max(t - WINDOW, own.x[0]), end: t });
+    Object.assign(page.clock, { start: Math.max(t - WINDOW, own.x[0]), end: Math.max(t, own.x[0] + 1) });
     page.panel.energyPlot.redraw(page.theme);
   }
 

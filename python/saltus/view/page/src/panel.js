@@ -111,7 +111,9 @@ export class Panel {
     const { arrows, data } = this.page;
     const words = [];
     const unit = (value, symbol) => `${short(Number(value.toPrecision(3)))} ${symbol}`;
-    if (arrows.largest.impulse) {
+    if (data.mode === 'live') {
+      words.push([ARROWS.impulse, 'impulse'], [ARROWS.force, 'contact force']);
+    } else if (arrows.largest.impulse) {
       words.push([ARROWS.impulse, `impulse, longest ${unit(arrows.largest.impulse, 'N s')}`]);
       words.push([ARROWS.normal, 'contact normal']);
     }
