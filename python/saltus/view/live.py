@@ -15,7 +15,7 @@ import numpy as np
 from saltus._core import Model, ModelError, State, StepError, Stepper, __version__
 from saltus.view.arrays import packed
 from saltus.view.page import LIVE_POLICY, page_of
-from saltus.view.parts import Parts
+from saltus.view.parts import Parts, shapeless
 from saltus.view.pull import Pull, pulled
 from saltus.view.server import PageServer
 from saltus.view.sliders import posture, sliders_of
@@ -260,7 +260,7 @@ def _scene(model: Model, parts: Parts, state: State, h: float) -> dict[str, Any]
         "mode": "live",
         "title": model.name,
         "summary": f"live, h = {h:.3g} s; closing the page ends it",
-        "notices": [] if model.shapes else ["This model has no shapes: its joints are drawn."],
+        "notices": [text for text in [shapeless(model)] if text],
         "gravity": model.gravity.tolist(),
         "h": h,
         **parts.described(),

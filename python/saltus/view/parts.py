@@ -113,7 +113,26 @@ class Parts:
         return items
 
     def _visuals(self) -> list[dict[str, Any]]:
-        return []
+        items = []
+        for number, visual in enumerate(visuals_of(self.model)):
+            link = self.model.link(visual.link)
+            body, X_BG = self._in_body(link, self._links[link] @ visual.X_LG.matrix())
+            geometry, scale = self.geometries.add(visual.shape)
+            *colour, alpha = visual.rgba
+            items.append(
+                {
+                    "name": visual.name or f"{visual.link} (visual {number})",
+                    "link": visual.link,
+                    "body": body,
+                    "kind": "visual",
+                    "geometry": geometry,
+                    "pose": seven(X_BG[np.newaxis])[0].tolist(),
+                    "scale": scale,
+                    "colour": "#" + "".join(f"{round(255 * c):02x}" for c in colour),
+                    "alpha": alpha,
+                }
+            )
+        return items
 
     def _frames(self) -> list[dict[str, Any]]:
         frames = []
@@ -160,6 +179,15 @@ class Parts:
 def visuals_of(model: Model) -> list[Any]:
     """Return the visuals of a model, none where its file has none."""
     return list(getattr(model, "visuals", ()))
+
+
+def shapeless(model: Model) -> str:
+    """Return what a viewer must know of a model without shapes, "" of others."""
+    if model.shapes:
+        return ""
+    if visuals_of(model):
+        return "This model has visuals but no collision shapes: nothing can touch."
+    return "This model has no shapes: its joints and frames are drawn."
 
 
 def seven(X: Array) -> Array:

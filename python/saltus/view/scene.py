@@ -13,7 +13,7 @@ from saltus.records.recording import Recording
 from saltus.records.tables import Array, counted
 from saltus.view.arrays import packed
 from saltus.view.instants import Instants, instants_of
-from saltus.view.parts import Parts
+from saltus.view.parts import Parts, shapeless
 
 FORMAT = 1
 MOST_GAPS = 24  # pairs whose gaps the page can plot
@@ -70,8 +70,8 @@ def _notices(run: Recording, model: Model, instants: Instants) -> list[str]:
         notices.append(f"This run stopped before its end, at t = {run.t[-1]:g} s.")
     if len(run) == 1:
         notices.append("This run has one row: nothing moves.")
-    if not model.shapes:
-        notices.append("This model has no shapes: its joints and frames are drawn.")
+    if no_shapes := shapeless(model):
+        notices.append(no_shapes)
     if instants.interpolated:
         many = counted(instants.interpolated, "impact")
         notices.append(f"At {many} the places of bodies are interpolated between recorded rows.")

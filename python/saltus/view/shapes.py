@@ -31,12 +31,13 @@ class Geometries:
         self.stored: list[dict[str, Any]] = []
         self._numbers: dict[str, int] = {}
 
-    def add(self, shape: Shape) -> tuple[int, list[float]]:
+    def add(self, shape: Any) -> tuple[int, list[float]]:
         """Return the number of the geometry of a shape, and the three scales along its axes.
 
         Parameters
         ----------
         shape : Shape
+            Or a mesh with vertices and faces of three.
 
         Returns
         -------
@@ -57,10 +58,14 @@ class Geometries:
                 return self._number({"type": "capsule", **sizes}), [1.0] * 3
             case HalfSpace():
                 return self._number({"type": "plane"}), [1.0] * 3
-            case _:
+            case Convex():
                 return self.add_mesh(shape.vertices, _triangles(shape.faces)), [1.0] * 3
+            case _:  # a mesh of triangles, which visuals may be
+                return self.add_mesh(shape.vertices, shape.faces, smooth=True), [1.0] * 3
 
-    def add_mesh(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> int:
+    def add_mesh(
+        self, vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, smooth: bool = False
+    ) -> int:
         """Return the number of a geometry of triangles.
 
         Parameters
@@ -69,13 +74,15 @@ class Geometries:
             [m]
         triangles : array_like, shape (m, 3)
             Numbers of vertices, counterclockwise seen from outside.
+        smooth : bool
+            Whether flat angles between triangles are drawn round.
 
         Returns
         -------
         int
         """
         mesh = {"vertices": packed(vertices), "triangles": packed(triangles, "i4")}
-        return self._number({"type": "mesh", **mesh})
+        return self._number({"type": "mesh", "smooth": smooth, **mesh})
 
     def _number(self, geometry: dict[str, Any]) -> int:
         key = json.dumps(geometry, sort_keys=True)

@@ -1,7 +1,7 @@
 // How large the scene is: the box of all that moves, and of what stands still.
 
 import * as THREE from 'three';
-import { bodyMatrix } from './items.js';
+import { bodyMatrix, matrixOf } from './items.js';
 
 const ROWS = 200; // of the motion that are looked at
 const RARE = 0.04; // part of the time that a body may be out of the picture, at either end
@@ -21,50 +21,67 @@ export function boundsOf(data, motion) {
   const half = Math.max(diagonal(box) / 2, 1e-3);
   return { box, radius: half, body: radii.length ? radii[radii.length >> 1] : half / 8 };
 
-  // Of each item and each pivot: radius, and its coordinates over time, in order.
+  // Of each item and each pivot: least and greatest coordinates over time, in order.
   function tracksOf() {
-    const found = items.map((item) => ({ radius: reach(data, item), at: [[], [], []] }));
-    const pivots = Array.from({ length: motion.bodies }, () => ({ radius: 0, at: [[], [], []] }));
-    const p = new THREE.Vector3();
+    const track = () => ({ low: [[], [], []], high: [[], [], []] });
+    const found = items.map(track);
+    const pivots = Array.from({ length: motion.bodies }, track);
     for (let k = 0; k < rows; k++) {
       motion.set(motion.start + ((motion.end - motion.start) * k) / Math.max(rows - 1, 1));
       items.forEach((item, i) => {
-        p.fromArray(item.pose);
-        if (item.body >= 0) p.applyMatrix4(bodyMatrix(motion.now, item.body));
-        p.toArray().forEach((x, axis) => found[i].at[axis].push(x));
+        const X = matrixOf(item.pose, [1, 1, 1]);
+        if (item.body >= 0) X.premultiply(bodyMatrix(motion.now, item.body));
+        push(found[i], extent(item, X));
       });
-      pivots.forEach(({ at }, body) => {
-        for (const axis of [0, 1, 2]) at[axis].push(motion.now[7 * body + axis]);
+      pivots.forEach((pivot, body) => {
+        const p = new THREE.Vector3().fromArray(motion.now, 7 * body);
+        push(pivot, new THREE.Box3(p, p));
       });
     }
     const all = [...found, ...pivots];
-    for (const { at } of all) at.forEach((xs) => xs.sort((a, b) => a - b));
+    for (const { low, high } of all) [...low, ...high].forEach((xs) => xs.sort((a, b) => a - b));
     return all;
   }
+
+  // The box about an item in a pose.
+  function extent(item, X) {
+    const box = localBox(data, item);
+    if (data.geometries[item.geometry].type !== 'sphere') return box.applyMatrix4(X);
+    const half = box.max.clone(); // of an ellipsoid |R half|, row by row
+    const e = X.elements;
+    const wide = [0, 1, 2].map((k) => Math.hypot(e[k] * half.x, e[4 + k] * half.y, e[8 + k] * half.z));
+    const size = new THREE.Vector3(...wide).multiplyScalar(2);
+    return new THREE.Box3().setFromCenterAndSize(new THREE.Vector3().setFromMatrixPosition(X), size);
+  }
+}
+
+function push({ low, high }, box) {
+  box.min.toArray().forEach((x, axis) => low[axis].push(x));
+  box.max.toArray().forEach((x, axis) => high[axis].push(x));
 }
 
 // The tracks without those few that go much further than three quarters of all do.
 function usualOf(tracks) {
   const centre = [0, 1, 2].map(middle);
-  const far = tracks.map(({ radius, at }) =>
-    Math.max(...at.map((xs, k) => Math.max(xs.at(-1) - centre[k], centre[k] - xs[0]))) + radius,
+  const far = tracks.map(({ low, high }) =>
+    Math.max(...[0, 1, 2].map((k) => Math.max(high[k].at(-1) - centre[k], centre[k] - low[k][0]))),
   );
   const typical = [...far].sort((a, b) => a - b)[Math.ceil(0.75 * far.length) - 1];
   return tracks.filter((_, i) => far[i] <= 4 * typical);
 
   // Middle of all, along an axis, where most of their time is spent.
   function middle(k) {
-    const middles = tracks.map(({ at }) => at[k][at[k].length >> 1]).sort((a, b) => a - b);
+    const middles = tracks.map(({ low }) => low[k][low[k].length >> 1]).sort((a, b) => a - b);
     return middles[middles.length >> 1];
   }
 }
 
 function boxOf(tracks, rare) {
   const box = new THREE.Box3();
-  for (const { radius, at } of tracks) {
-    const end = (part) => at.map((xs) => xs[Math.round(part * (xs.length - 1))]);
-    box.expandByPoint(new THREE.Vector3(...end(rare)).addScalar(-radius));
-    box.expandByPoint(new THREE.Vector3(...end(1 - rare)).addScalar(radius));
+  for (const { low, high } of tracks) {
+    const end = (part, all) => all.map((xs) => xs[Math.round(part * (xs.length - 1))]);
+    box.expandByPoint(new THREE.Vector3(...end(rare, low)));
+    box.expandByPoint(new THREE.Vector3(...end(1 - rare, high)));
   }
   return box;
 }
@@ -73,26 +90,22 @@ const diagonal = (box) => (box.isEmpty() ? 0 : box.getSize(new THREE.Vector3()).
 
 // Largest distance of an item's points from its frame's origin [m].
 function reach(data, item) {
+  const { type } = data.geometries[item.geometry];
+  if (type === 'plane') return Infinity;
+  if (type === 'sphere') return Math.max(...item.scale);
+  const { min, max } = localBox(data, item);
+  return Math.max(min.length(), max.length());
+}
+
+// The box of an item in its own frame.
+function localBox(data, item) {
   const geometry = data.geometries[item.geometry];
-  const [x, y, z] = item.scale;
-  switch (geometry.type) {
-    case 'plane':
-      return Infinity;
-    case 'sphere':
-      return Math.max(x, y, z);
-    case 'cylinder':
-      return Math.hypot(x, z);
-    case 'capsule':
-      return geometry.radius + geometry.half_length;
-    case 'box':
-      return Math.hypot(x, y, z);
-    default: {
-      let most = 0;
-      const v = geometry.vertices;
-      for (let k = 0; k < v.length; k += 3) {
-        most = Math.max(most, Math.hypot(v[k] * x, v[k + 1] * y, v[k + 2] * z));
-      }
-      return most;
-    }
+  const scale = new THREE.Vector3().fromArray(item.scale);
+  if (geometry.type === 'mesh') {
+    geometry.box ??= new THREE.Box3().setFromArray(geometry.vertices);
+    return new THREE.Box3(geometry.box.min.clone().multiply(scale), geometry.box.max.clone().multiply(scale));
   }
+  const { radius, half_length: half } = geometry;
+  const size = geometry.type === 'capsule' ? new THREE.Vector3(radius, radius, radius + half) : scale;
+  return new THREE.Box3(size.clone().negate(), size.clone());
 }

@@ -1,7 +1,9 @@
 // Geometries of shapes. Round ones have two tones, so that one sees them turn.
 
 import * as THREE from 'three';
+import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 
+const CREASE = 0.7; // rad between triangles; flatter angles are drawn round
 const PATTERNED = new Set(['sphere', 'cylinder', 'capsule']);
 
 // Fewer triangles where there are many bodies: [around, along].
@@ -42,14 +44,15 @@ function flat(stored) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(stored.vertices, 3));
   geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(stored.triangles), 1));
+  if (stored.smooth) return toCreasedNormals(geometry, CREASE);
   const apart = geometry.toNonIndexed(); // flat faces, as boxes have
   apart.computeVertexNormals();
   return apart;
 }
 
-export function makeMaterial(type, options = {}) {
+export function makeMaterial(type, options, patterned) {
   const material = new THREE.MeshStandardMaterial({ roughness: 0.55, metalness: 0.02, ...options });
-  if (PATTERNED.has(type)) material.map = pattern();
+  if (patterned && PATTERNED.has(type)) material.map = pattern();
   return material;
 }
 

@@ -17,10 +17,13 @@ export class Items {
     this.data = data;
     this.size = size;
     this.group = new THREE.Group();
-    this.meshes = []; // { mesh, items, kind }
+    this.meshes = []; // { mesh, items, kind, group }
     this.geometries = [...data.geometries, { type: 'rod' }];
     this.rod = data.geometries.length;
     this.all = [...data.items.map((item) => ({ ...item })), ...this.threads(), ...this.frames()];
+    this.seen = new Set(data.items.filter((i) => i.kind === 'visual').map((item) => item.link));
+    const bodies = data.items.filter((i) => i.kind === 'visual').map((item) => item.body);
+    this.seenBodies = new Set(bodies);
     this.all.forEach((item) => this.prepare(item));
     this.build();
   }
@@ -65,8 +68,17 @@ export class Items {
     item.local = matrixOf(item.pose, item.scale);
     item.rigid = matrixOf(item.pose, [1, 1, 1]);
     item.alpha ??= 1;
+    item.group = this.groupOf(item);
     const own = item.body < 0 ? FIXED : BODIES[item.body % BODIES.length];
     item.paint = new THREE.Color(item.colour ?? own);
+  }
+
+  // What is shown and hidden together: links without visuals always show their collision shapes,
+  // and visuals have their own threads.
+  groupOf({ kind, link, body }) {
+    if (kind === 'collision' && !this.seen.has(link)) return 'plain';
+    if (kind === 'thread' && this.seenBodies.has(body)) return 'thread of shapes';
+    return kind;
   }
 
   build() {
@@ -74,17 +86,17 @@ export class Items {
     for (const item of this.all) {
       if (item.body === null || this.geometries[item.geometry].type === 'plane') continue;
       const see = item.alpha < 1 ? item.alpha.toFixed(2) : 1;
-      const key = `${item.kind} ${item.geometry} ${see}`;
+      const key = `${item.group} ${item.geometry} ${see}`;
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push(item);
     }
     for (const items of groups.values()) {
-      const { kind, geometry, alpha } = items[0];
+      const { kind, group, geometry, alpha } = items[0];
       const stored = this.geometries[geometry];
       const glass = alpha < 1 ? { transparent: true, opacity: alpha, depthWrite: false } : {};
       const mesh = new THREE.InstancedMesh(
         makeGeometry(stored, items.length),
-        makeMaterial(stored.type, glass),
+        makeMaterial(stored.type, glass, kind === 'collision'),
         items.length,
       );
       mesh.frustumCulled = false; // instances are everywhere
@@ -96,7 +108,7 @@ export class Items {
         mesh.setMatrixAt(i, item.local);
         mesh.setColorAt(i, item.paint);
       });
-      this.meshes.push({ mesh, items, kind });
+      this.meshes.push({ mesh, items, kind, group });
       this.group.add(mesh);
     }
   }
@@ -121,12 +133,18 @@ export class Items {
     return [...p.toArray(), ...r.toArray()];
   }
 
-  show(kind, visible) {
-    for (const each of this.meshes) if (each.kind === kind) each.mesh.visible = visible;
+  show(group, visible, glass = false) {
+    for (const { mesh, group: own, items } of this.meshes) {
+      if (own !== group) continue;
+      mesh.visible = visible;
+      if (items[0].alpha < 1) continue;
+      Object.assign(mesh.material, { transparent: glass, opacity: glass ? 0.4 : 1, depthWrite: !glass });
+      mesh.material.needsUpdate = true;
+    }
   }
 
-  has(kind) {
-    return this.all.some((item) => item.kind === kind);
+  has(group) {
+    return this.meshes.some((each) => each.group === group);
   }
 
   setThreadColour(colour) {

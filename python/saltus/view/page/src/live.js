@@ -65,7 +65,6 @@ class Live {
     }
     $('single').hidden = false;
     $('single').onclick = () => this.wish({ do: 'step' });
-    $('show-normal').parentElement.hidden = true;
     $('joints').hidden = false;
     $('reset').onclick = () => this.wish({ do: 'reset' });
     $('play').disabled = false;

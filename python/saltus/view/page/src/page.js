@@ -139,11 +139,18 @@ export class Page {
 
   showBodies(which) {
     this.bodiesShown = which;
-    this.items.show('collision', which !== 'visual');
+    this.items.show('collision', which !== 'visual', which === 'both');
     this.items.show('visual', which !== 'collision');
+    this.showThreads();
     const radio = document.querySelector(`input[name="bodies"][value="${which}"]`);
     if (radio) radio.checked = true;
     this.dirty = true;
+  }
+
+  showThreads() {
+    const wanted = $('show-thread').checked;
+    this.items.show('thread', wanted);
+    this.items.show('thread of shapes', wanted && this.bodiesShown !== 'visual');
   }
 
   nextBodies() {

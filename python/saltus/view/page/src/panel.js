@@ -77,7 +77,7 @@ export class Panel {
       impulse: (on) => (page.arrows.shown.impulse = on),
       normal: (on) => (page.arrows.shown.normal = on),
       force: (on) => (page.arrows.shown.force = on),
-      thread: (on) => page.items.show('thread', on),
+      thread: () => page.showThreads(),
       frame: (on) => page.items.show('frame', on),
       names: (on) => page.labels.show(on),
       grid: (on) => page.ground.showGrid(on),
@@ -90,8 +90,13 @@ export class Panel {
         page.moved();
       };
     }
-    $('show-force').parentElement.hidden = !page.data.forces && page.data.mode !== 'live';
-    $('show-thread').parentElement.hidden = !page.items.has('thread');
+    const live = page.data.mode === 'live';
+    const { impulse, force } = page.arrows.largest;
+    $('show-force').parentElement.hidden = !force && !live;
+    $('show-impulse').parentElement.hidden = !impulse && !live;
+    $('show-normal').parentElement.hidden = !impulse;
+    $('show-thread').parentElement.hidden =
+      !page.items.has('thread') && !page.items.has('thread of shapes');
     page.items.show('frame', false);
     if (!page.data.items.length) $('show-frame').click();
   }
