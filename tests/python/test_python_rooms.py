@@ -17,9 +17,10 @@ ROOMS: dict[str, set[str]] = {"_core": set()}
 ROOMS["arguments"] = ROOMS["paths"] = ROOMS["scenes"] = ROOMS["urdf"] = {"_core"}  # neighbours
 ROOMS["records"] = {"_core", "urdf"}
 ROOMS["plots"] = {"_core", "records"}
-ROOMS["runs"] = {"_core", "records", "plots"}
+ROOMS["view"] = {"_core", "records"}
+ROOMS["runs"] = {"_core", "records", "plots", "view"}
 ROOMS["saltus"] = {"_core", "paths", "scenes", "urdf", "records", "runs"}
-ROOMS["cli"] = {"saltus", "records", "plots"}
+ROOMS["cli"] = {"saltus", "records", "plots", "view"}
 ROOMS["__main__"] = {"cli"}
 ROOMS["plots_cradle"] = ROOMS["plots_impacts"] = ROOMS["plots_pairs"] = {"plots"}  # old paths
 ROOMS["trajectory"] = {"runs"}
@@ -28,8 +29,23 @@ ROOMS["trajectory"] = {"runs"}
 ORDER = {
     "records": ["tables", "models", "impacts", "recording", "files"],
     "plots": ["figure", "cradle", "run", "impacts", "pairs"],
+    "view": [
+        "arrays",
+        "instants",
+        "shapes",
+        "parts",
+        "scene",
+        "page",
+        "browser",
+        "server",
+        "video",
+        "show",
+        "sliders",
+        "pull",
+        "live",
+    ],
     "runs": ["trajectory", "batch_trajectory", "starts", "progress", "simulate", "batch"],
-    "cli": ["commands", "main"],
+    "cli": ["commands", "looking", "main"],
 }
 
 

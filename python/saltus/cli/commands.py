@@ -89,7 +89,7 @@ def simulate(chosen: argparse.Namespace) -> int:
 
 def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
     return saltus.simulate(
-        _load(chosen),
+        load(chosen),
         q=dict(chosen.q),
         v=dict(chosen.v),
         duration=chosen.duration,
@@ -105,7 +105,7 @@ def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
 
 def info(chosen: argparse.Namespace) -> int:
     """Print what a model consists of."""
-    model = _load(chosen)
+    model = load(chosen)
     mass = sum(link.mass for link in model.links)
     counts = {
         "link": len(model.links),
@@ -137,7 +137,8 @@ def info(chosen: argparse.Namespace) -> int:
     return 0
 
 
-def _load(chosen: argparse.Namespace) -> saltus.Model:
+def load(chosen: argparse.Namespace) -> saltus.Model:
+    """Return the model of the file."""
     # Paths, whatever their names begin with: text is for programs.
     return saltus.load_urdf(
         str(Path(chosen.file).absolute()),

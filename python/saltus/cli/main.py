@@ -1,4 +1,4 @@
-"""The command line: `saltus simulate`, `saltus info`, `saltus cmake-dir`."""
+"""The command line: `saltus simulate`, `info`, `view` and `cmake-dir`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NoReturn, TextIO
 
 import saltus
-from saltus.cli import commands
+from saltus.cli import commands, looking
 
 USER_ERROR, STEP_ERROR = 2, 1
 
@@ -60,6 +60,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands_of = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     _add_simulate(commands_of)
     _add_info(commands_of)
+    _add_view(commands_of)
     where = commands_of.add_parser(
         "cmake-dir", help="print the folder to put on CMAKE_PREFIX_PATH for find_package(saltus)"
     )
@@ -76,28 +77,9 @@ def _add_simulate(commands_of: Commands[Parser]) -> None:
         help="run a model and report its impacts",
         description="Run a model from a URDF file, print its impacts and the energy error.",
     )
+    parser.add_argument("file", metavar="FILE", help="URDF file")
+    _add_start(parser)
     add = parser.add_argument
-    add("file", metavar="FILE", help="URDF file")
-    add(
-        "--set",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        type=commands.assignment,
-        dest="q",
-        help="coordinate at the start [rad | m]; may be repeated, the others are 0",
-    )
-    add(
-        "--set-velocity",
-        metavar="NAME=VALUE",
-        action="append",
-        default=[],
-        type=commands.assignment,
-        dest="v",
-        help="velocity at the start [rad/s | m/s]; may be repeated, the others are 0",
-    )
-    add("--duration", type=float, default=10.0, metavar="S", help="[s] default: %(default)s")
-    add("--h", type=float, default=0.01, metavar="S", help="[s] time step; default: %(default)s")
     add(
         "--law",
         choices=[law.name for law in saltus.ImpactLaw if law is not saltus.ImpactLaw.custom],
@@ -141,6 +123,54 @@ def _add_info(commands_of: Commands[Parser]) -> None:
     )
     _add_loading(parser)
     parser.set_defaults(command=commands.info)
+
+
+def _add_view(commands_of: Commands[Parser]) -> None:
+    parser = commands_of.add_parser(
+        "view",
+        help="show a model or a recorded run in a browser",
+        description="Simulate a URDF file, or read a recorded run, and show it as a page that "
+        "plays. A model that is at rest as it stands is started with a joint moved a little.",
+    )
+    add = parser.add_argument
+    add("file", metavar="FILE", help="URDF file, or a run as simulate --out writes it (.h5)")
+    add("--html", metavar="FILE.html", help="write the page to this file and open no browser")
+    add("--video", metavar="FILE.webm", help="write a video, which needs Chromium")
+    add("--rate", type=float, default=30.0, metavar="N", help="frames a second of the video")
+    add("--slow", type=float, default=1.0, metavar="N", help="the video runs N times slower")
+    add(
+        "--live",
+        action="store_true",
+        help="simulate while the page is open: joints on sliders, bodies pulled with the mouse",
+    )
+    add("--no-browser", action="store_true", help="with --live: print the page's address only")
+    _add_start(parser, h=None)  # live it is another
+    _add_loading(parser)
+    parser.set_defaults(command=looking.view)
+
+
+def _add_start(parser: Parser, h: float | None = 0.01) -> None:
+    add = parser.add_argument
+    add(
+        "--set",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        type=commands.assignment,
+        dest="q",
+        help="coordinate at the start [rad | m]; may be repeated, the others are 0",
+    )
+    add(
+        "--set-velocity",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        type=commands.assignment,
+        dest="v",
+        help="velocity at the start [rad/s | m/s]; may be repeated, the others are 0",
+    )
+    add("--duration", type=float, default=10.0, metavar="S", help="[s] default: %(default)s")
+    add("--h", type=float, default=h, metavar="S", help="[s] time step; default: 0.01")
 
 
 def _add_loading(parser: argparse.ArgumentParser) -> None:

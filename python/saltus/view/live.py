@@ -1,0 +1,294 @@
+"""A model that is simulated while its page is open."""
+
+from __future__ import annotations
+
+import base64
+import json
+import threading
+import time
+from collections.abc import Callable
+from io import BufferedIOBase
+from typing import Any
+
+import numpy as np
+
+from saltus._core import Model, ModelError, State, StepError, Stepper, __version__
+from saltus.view.arrays import packed
+from saltus.view.page import LIVE_POLICY, page_of
+from saltus.view.parts import Parts, shapeless
+from saltus.view.pull import Pull, pulled
+from saltus.view.server import PageServer
+from saltus.view.sliders import posture, sliders_of
+
+FRAME = 1 / 60  # s between frames
+QUIET = 0.5  # s without news, after which a stream shows that it lives
+GRACE = 2.0  # s without a page until the server ends: a page may be loaded anew
+MOST_LATE = 0.1  # s that are made up for; what a slow model is later than that is dropped
+SPEEDS = (0.001, 10.0)
+
+
+class Live:
+    """A model, its state, and what the page may do to it.
+
+    Attributes
+    ----------
+    state : State
+    playing : bool
+    """
+
+    def __init__(self, model: Model, state: State, *, h: float) -> None:
+        self.model, self.start, self.state, self.h = model, state, state, h
+        self.stepper = Stepper(model, h)
+        self.parts = Parts(model)
+        self.scene = _scene(model, self.parts, state, h)
+        self.sliders = sliders_of(model, reach=max(1.0, _size(self.parts, state)))
+        self.scene["sliders"] = [
+            {"name": s.name, "unit": s.unit, "lower": s.lower, "upper": s.upper}
+            for s in self.sliders
+        ]
+        self.playing = True
+        self.speed = 1.0
+        self.pull: Pull | None = None
+        self.problem = ""
+        self.impulses: list[list[Any]] = []
+        self.lock = threading.Lock()
+        self.news = threading.Condition()
+        self.frame = (0, b"")
+        self.pages = 0
+        self.last_page = -1.0  # when the last page went; -1: none came yet
+        self.actions: dict[str, Callable[[dict[str, Any]], None]] = {
+            "play": lambda _: self._play(True),
+            "pause": lambda _: self._play(False),
+            "step": lambda _: self._single(),
+            "reset": lambda _: self._reset(),
+            "speed": self._set_speed,
+            "set": self._set,
+            "pull": self._pull,
+            "release": lambda _: self._release(),
+        }
+
+    def page(self) -> str:
+        """Return the page of the model as it is now."""
+        return page_of(self.scene, policy=LIVE_POLICY)
+
+    def do(self, body: bytes) -> str:
+        """Do what the page asks for; raise ModelError with words for it where that cannot be."""
+        try:
+            asked = json.loads(body)
+            action = self.actions[asked["do"]]
+        except (ValueError, KeyError, TypeError):
+            raise ModelError(
+                f"the page asked for {body[:80]!r}; there are {', '.join(self.actions)}"
+            ) from None
+        with self.lock:
+            try:
+                action(asked)
+            except (KeyError, TypeError, IndexError) as error:
+                raise ModelError(f"{asked['do']}: {error!r} in what the page asked for") from None
+        self.tell()
+        return ""
+
+    def run(self, until: Callable[[], bool]) -> None:
+        """Simulate by the clock on the wall, a frame every sixtieth of a second."""
+        last = time.monotonic()
+        owed = 0.0
+        while not until():
+            now = time.monotonic()
+            with self.lock:
+                if self.playing:
+                    owed = min(owed + (now - last) * self.speed, MOST_LATE)
+                    owed -= self._steps(owed)
+                    moved = True
+                else:
+                    owed, moved = 0.0, False
+            last = now
+            if moved:
+                self.tell()
+            time.sleep(max(0.0, FRAME - (time.monotonic() - now)))
+
+    def tell(self) -> None:
+        """Give all pages the state as it is."""
+        with self.lock:
+            text = self._frame()
+            self.impulses = []
+        with self.news:
+            self.frame = (self.frame[0] + 1, text)
+            self.news.notify_all()
+
+    def stream(self, out: BufferedIOBase) -> None:
+        """Write frames to a page until it is closed."""
+        with self.news:
+            self.pages += 1
+        try:
+            seen = -1
+            while True:
+                with self.news:
+                    if self.frame[0] == seen:
+                        self.news.wait(QUIET)
+                    number, text = self.frame
+                out.write(b"data: " + text + b"\n\n" if number != seen else b":\n\n")
+                out.flush()
+                seen = number
+        except OSError:
+            pass  # the page is closed
+        finally:
+            with self.news:
+                self.pages -= 1
+                self.last_page = time.monotonic()
+
+    def is_left(self) -> bool:
+        """Whether the last page was closed some time ago."""
+        with self.news:
+            gone = self.pages == 0 and self.last_page >= 0
+            return gone and time.monotonic() > self.last_page + GRACE
+
+    def _steps(self, owed: float) -> float:
+        """Step as long as a step is owed and a frame's time is left; return the time made."""
+        end = time.monotonic() + FRAME
+        made = 0.0
+        while owed - made >= self.h and self.playing:
+            self._advance()
+            made += self.h
+            if time.monotonic() > end:
+                break
+        return made
+
+    def _advance(self) -> None:
+        start = self.state
+        try:
+            if self.pull is not None:
+                start = pulled(self.model, start, self.pull, self.h)
+            self.state = self.stepper.advance(start)
+        except (StepError, ModelError) as error:
+            self.playing = False
+            self.problem = f"stopped: {error}"
+            return
+        for impact in self.stepper.report.impacts:
+            vectors = impact.lambdas[:, None] * impact.normals + impact.tangentials
+            for pair, point, vector in zip(impact.pairs, impact.points, vectors, strict=True):
+                self.impulses.append(["impulse", pair, point.tolist(), vector.tolist()])
+
+    def _frame(self) -> bytes:
+        q = np.asarray(self.state.q)
+        poses = np.ascontiguousarray(self.parts.poses(q[np.newaxis])[0], "<f4")
+        held = [
+            [
+                "force",
+                c.pair,
+                c.point.tolist(),
+                ((c.impulse * c.normal + c.tangential) / self.h).tolist(),
+            ]
+            for c in self.stepper.report.contacts
+        ]
+        return json.dumps(
+            {
+                "t": self.state.t,
+                "poses": base64.b64encode(poses.tobytes()).decode(),
+                "kinetic": self.model.kinetic_energy(self.state),
+                "potential": self.model.potential_energy(q),
+                "playing": self.playing,
+                "speed": self.speed,
+                "values": [slider.get(q) for slider in self.sliders],
+                "arrows": self.impulses[-200:] + held[:200],
+                "problem": self.problem,
+                "sent": time.time(),
+            }
+        ).encode()
+
+    def _play(self, playing: bool) -> None:
+        self.playing = playing
+        self.problem = ""
+
+    def _single(self) -> None:
+        self._play(False)
+        self._advance()
+
+    def _reset(self) -> None:
+        self.state, self.pull, self.problem = self.start, None, ""
+
+    def _set_speed(self, asked: dict[str, Any]) -> None:
+        self.speed = float(np.clip(float(asked["value"]), *SPEEDS))
+
+    def _set(self, asked: dict[str, Any]) -> None:
+        slider = self.sliders[int(asked["slider"])]
+        state = posture(self.model, self.state, slider, float(asked["value"]))
+        Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
+        self.state, self.problem = state, ""
+
+    def _pull(self, asked: dict[str, Any]) -> None:
+        link = self.parts.bodies[int(asked["body"])]
+        at, to = (np.array(asked[name], float) for name in ("at", "to"))
+        if at.shape != (3,) or to.shape != (3,) or not np.isfinite([at, to]).all():
+            raise ModelError("pull: two points of three numbers are to be given")
+        self.pull = Pull(link, at, to)
+
+    def _release(self) -> None:
+        self.pull = None
+
+
+def serve(model: Model, state: State, *, h: float, opened: Callable[[str], None] = print) -> None:
+    """Simulate a model for pages in the browser, until the last of them is closed.
+
+    Parameters
+    ----------
+    model : Model
+    state : State
+        At the start, and after a reset.
+    h : float
+        [s] time step.
+    opened : callable
+        Is given the address of the page.
+
+    Raises
+    ------
+    ModelError
+        On a start that does not fit the model.
+    """
+    live = Live(model, state, h=h)
+    with PageServer(live.page, {"do": live.do}, {"events": live.stream}) as server:
+        live.tell()
+        opened(server.url)
+        live.run(live.is_left)
+
+
+def _scene(model: Model, parts: Parts, state: State, h: float) -> dict[str, Any]:
+    q = np.asarray(state.q)[np.newaxis]
+    none = packed(np.zeros(0), "f8")
+    whole = packed(np.zeros(0), "i4")
+    return {
+        "version": __version__,
+        "mode": "live",
+        "title": model.name,
+        "summary": f"live, h = {h:.3g} s; closing the page ends it",
+        "notices": [text for text in [shapeless(model)] if text],
+        "gravity": model.gravity.tolist(),
+        "h": h,
+        **parts.described(),
+        "t": packed([state.t], "f8"),
+        "poses": packed(parts.poses(q)),
+        "kinetic": packed([model.kinetic_energy(state)], "f8"),
+        "potential": packed([model.potential_energy(q[0])], "f8"),
+        "impacts": {
+            "t": none,
+            "instant": whole,
+            "kinetic_before": none,
+            "first": packed([0], "i4"),
+            "certificates": [],
+        },
+        "impulses": {
+            "pairs": [],
+            "pair": whole,
+            "lambda": none,
+            "point": none,
+            "normal": none,
+            "vector": none,
+        },
+        "forces": None,
+        "gaps": {"pairs": [], "phi": none},
+    }
+
+
+def _size(parts: Parts, state: State) -> float:
+    """Return how far bodies are from the origin [m]."""
+    at = parts.poses(np.asarray(state.q)[np.newaxis])[0, :, :3]
+    return float(np.linalg.norm(at, axis=1).max(initial=0.0))

@@ -1,0 +1,223 @@
+// A page whose model is simulated while it is open: frames come in, wishes go out.
+
+import * as THREE from 'three';
+import { $ } from './bar.js';
+import { ICONS } from './icons.js';
+import { bodyMatrix } from './items.js';
+
+const WINDOW = 10; // s of the energies that are plotted
+const PLOTS = 8; // plots drawn anew a second
+const SEEN = 150; // ms that an impulse's arrow stays
+
+class Live {
+  constructor(page) {
+    this.page = page;
+    this.frames = 0;
+    this.lags = [];
+    this.busy = false; // a wish is on its way
+    this.waiting = null; // the newest that waits for it
+    this.drawn = 0;
+    this.impulses = [];
+    this.take();
+    this.sliders();
+    this.pulling();
+    this.source = new EventSource('events');
+    this.source.onmessage = (event) => this.frame(JSON.parse(event.data));
+    this.source.onerror = () => {
+      page.say('The program that simulates this page has ended.');
+      this.source.close();
+      clearTimeout(page.silence);
+    };
+    window.addEventListener('pagehide', () => this.source.close());
+  }
+
+  // Sends a wish; of those that come while one is on its way the newest is kept.
+  async wish(what) {
+    if (this.busy) {
+      if (this.waiting && this.waiting.do !== what.do) await this.send(this.waiting);
+      this.waiting = what;
+      return;
+    }
+    this.busy = true;
+    await this.send(what);
+    this.busy = false;
+    const next = this.waiting;
+    this.waiting = null;
+    if (next) this.wish(next);
+  }
+
+  async send(what) {
+    try {
+      const answer = await fetch('do', { method: 'POST', body: JSON.stringify(what) });
+      if (!answer.ok) this.page.say(await answer.text());
+    } catch {
+      this.page.say('The program that simulates this page has ended.');
+    }
+  }
+
+  // Gives the bar and the clock to the program.
+  take() {
+    const { page } = this;
+    const { clock } = page;
+    document.body.classList.add('live');
+    for (const id of ['previous', 'next', 'track', 'loop-box', 'impact-box', 'gap-box', 'save-video']) {
+      $(id).hidden = true;
+    }
+    $('single').hidden = false;
+    $('single').onclick = () => this.wish({ do: 'step' });
+    $('joints').hidden = false;
+    $('reset').onclick = () => this.wish({ do: 'reset' });
+    $('play').disabled = false;
+    clock.tick = () => false;
+    clock.toggle = () => this.wish({ do: clock.playing ? 'pause' : 'play' });
+    clock.seek = () => {};
+    clock.setSpeed = (value) => this.wish({ do: 'speed', value });
+    page.bar.frame = (direction) => direction > 0 && this.wish({ do: 'step' });
+    page.bar.jump = () => {};
+    page.motion.set = () => {};
+    page.arrows.place = () => {};
+    page.panel.impacts = () => {};
+    page.energies = { x: [], kinetic: [], potential: [], total: [] };
+    page.panel.energy = page.energies;
+    page.motion.now.set(page.data.poses);
+    if (window.innerWidth < 900) page.openPanel(false);
+  }
+
+  sliders() {
+    this.inputs = this.page.data.sliders.map(({ name, unit, lower, upper }, i) => {
+      const label = document.createElement('label');
+      const input = document.createElement('input');
+      const output = document.createElement('output');
+      label.textContent = name;
+      label.htmlFor = input.id = `slider-${i}`;
+      Object.assign(input, { type: 'range', min: lower, max: upper, step: 'any' });
+      input.oninput = () => this.wish({ do: 'set', slider: i, value: Number(input.value) });
+      $('sliders').append(label, input, output);
+      return { input, output, unit };
+    });
+    if (!this.inputs.length) $('sliders').textContent = 'This model has no joints that move.';
+  }
+
+  frame(news) {
+    const { page } = this;
+    this.frames++;
+    this.lags.push(Date.now() - 1000 * news.sent);
+    if (this.lags.length > 600) this.lags.shift();
+    const bytes = Uint8Array.from(atob(news.poses), (c) => c.charCodeAt(0));
+    page.motion.now.set(new Float32Array(bytes.buffer));
+    const { clock } = page;
+    const changed = clock.playing !== news.playing || clock.speed !== news.speed;
+    Object.assign(clock, { time: news.t, playing: news.playing, speed: news.speed });
+    if (changed) page.bar.changed();
+    $('play').innerHTML ||= ICONS.pause;
+    this.values(news.values);
+    this.energies(news);
+    this.arrows(news.arrows);
+    if (news.problem && news.problem !== this.problem) page.say(news.problem);
+    this.problem = news.problem;
+    this.line();
+    page.dirty = true;
+  }
+
+  values(values) {
+    values.forEach((value, i) => {
+      const { input, output, unit } = this.inputs[i];
+      if (!input.matches(':active')) input.value = value;
+      const text = `${value.toFixed(3)} ${unit}`;
+      if (output.textContent !== text) output.textContent = text;
+    });
+  }
+
+  energies({ t, kinetic, potential }) {
+    const { page } = this;
+    const own = page.energies;
+    if (own.x.length && t < own.x.at(-1)) for (const name in own) own[name].length = 0; // a reset
+    if (own.x.at(-1) === t) for (const name in own) own[name].pop();
+    own.x.push(t);
+    own.kinetic.push(kinetic);
+    own.potential.push(potential);
+    own.total.push(kinetic + potential);
+    while (own.x[0] < t - WINDOW) for (const name in own) own[name].shift();
+    const now = performance.now();
+    if (now < this.drawn + 1000 / PLOTS) return;
+    this.drawn = now;
+    Object.assign(page.clock, { start: Math.max(t - WINDOW, own.x[0]), end: Math.max(t, own.x[0] + 1) });
+    page.panel.energyPlot.redraw(page.theme);
+  }
+
+  arrows(list) {
+    const now = performance.now();
+    this.impulses = this.impulses.filter(({ until }) => until > now);
+    const forces = [];
+    for (const [kind, pair, point, vector] of list) {
+      const arrow = { kind, pair, point, vector };
+      if (kind === 'impulse') this.impulses.push({ ...arrow, until: now + SEEN });
+      else forces.push(arrow);
+    }
+    this.page.arrows.given(this.impulses, forces);
+  }
+
+  // A press on a body pulls it; elsewhere it turns the view.
+  pulling() {
+    const { page } = this;
+    const { canvas } = page.stage;
+    const material = new THREE.LineBasicMaterial({ color: '#e8481c', depthTest: false });
+    this.thread = new THREE.Line(new THREE.BufferGeometry(), material);
+    this.thread.frustumCulled = false;
+    this.thread.renderOrder = 11;
+    this.thread.visible = false;
+    page.stage.scene.add(this.thread);
+    const plane = new THREE.Plane();
+    const to = (event) => {
+      const [w, h] = [canvas.clientWidth, canvas.clientHeight];
+      const at = new THREE.Vector2((2 * event.offsetX) / w - 1, 1 - (2 * event.offsetY) / h);
+      page.labels.ray.setFromCamera(at, page.stage.camera);
+      return page.labels.ray.ray.intersectPlane(plane, new THREE.Vector3());
+    };
+    const pull = (target) => {
+      if (!target) return;
+      this.grip.to = target;
+      this.line();
+      const { body, at } = this.grip;
+      this.wish({ do: 'pull', body, at: at.toArray(), to: target.toArray() });
+    };
+    // Before the camera's own listener, which is on the canvas.
+    $('picture').addEventListener('pointerdown', (event) => {
+      if (event.target !== canvas || event.button !== 0) return;
+      const found = page.labels.under(event.offsetX, event.offsetY);
+      if (!found || found.item.body < 0) return;
+      event.stopPropagation();
+      canvas.setPointerCapture(event.pointerId);
+      plane.setFromNormalAndCoplanarPoint(
+        page.stage.camera.getWorldDirection(new THREE.Vector3()),
+        found.point,
+      );
+      const inverse = bodyMatrix(page.motion.now, found.item.body).clone().invert();
+      this.grip = { body: found.item.body, at: found.point.clone().applyMatrix4(inverse) };
+      pull(found.point);
+    }, true);
+    canvas.addEventListener('pointermove', (event) => this.grip && pull(to(event)));
+    for (const name of ['pointerup', 'pointercancel']) {
+      canvas.addEventListener(name, () => {
+        if (!this.grip) return;
+        this.grip = null;
+        this.line();
+        this.wish({ do: 'release' });
+      });
+    }
+  }
+
+  // The line from the body to the mouse.
+  line() {
+    const { page, thread } = this;
+    thread.visible = Boolean(this.grip?.to);
+    if (!thread.visible) return;
+    const from = this.grip.at.clone().applyMatrix4(bodyMatrix(page.motion.now, this.grip.body));
+    thread.geometry.setFromPoints([from, this.grip.to]);
+    page.dirty = true;
+  }
+}
+
+export function goLive(page) {
+  page.live = new Live(page);
+}

@@ -1,0 +1,214 @@
+"""What of a model the page draws: bodies, their shapes, frames, threads to their pivots."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from saltus._core import HalfSpace, JointType, Model
+from saltus.records.tables import Array
+from saltus.view.arrays import packed
+from saltus.view.shapes import Geometries, bounding_radius
+
+WORLD = -1  # the body that stands still
+ALL_BODIES = 400  # larger models have only those with shapes; their massless links are not told
+TURNING = (JointType.revolute, JointType.continuous, JointType.spherical, JointType.helical)
+
+
+class Parts:
+    """The rigid bodies of a model, and what is fixed to them.
+
+    Links that fixed joints connect are one body; so the page has few numbers to store.
+
+    Attributes
+    ----------
+    bodies : list of int
+        A link of each body; its frame is the body's.
+    body_of : list of int
+        Body of each link; `WORLD` of those that stand still, None of those left out.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.geometries = Geometries()
+        self._rest = model.neutral()[np.newaxis]
+        self._links = [model.poses(self._rest, i)[0] for i in range(len(model.links))]
+        self._joint_of = {joint.child: joint for joint in model.joints}
+        owner = self._owners()
+        shaped = {owner[s.link] for s in model.shapes} - {WORLD}
+        shaped |= {owner[model.link(v.link)] for v in visuals_of(model)} - {WORLD}
+        moving = [i for i in range(len(owner)) if owner[i] == i]
+        few = len(moving) <= ALL_BODIES or not shaped
+        self.bodies = moving if few else [i for i in moving if i in shaped]
+        numbers = {link: number for number, link in enumerate(self.bodies)}
+        self.body_of = [WORLD if o == WORLD else numbers.get(o) for o in owner]
+
+    def _owners(self) -> list[int]:
+        """Return for each link the link whose frame moves it: the first of its rigid body."""
+        index = {link.name: i for i, link in enumerate(self.model.links)}
+        owner: list[int | None] = [None] * len(index)
+
+        def find(i: int) -> int:
+            chain = [i]
+            while owner[chain[-1]] is None:
+                joint = self._joint_of.get(self.model.links[chain[-1]].name)
+                if joint is None:
+                    owner[chain[-1]] = WORLD
+                elif joint.type is not JointType.fixed:
+                    owner[chain[-1]] = chain[-1]
+                else:
+                    chain.append(index[joint.parent])
+            found = owner[chain[-1]]
+            assert found is not None
+            for link in chain:
+                owner[link] = found
+            return found
+
+        return [find(i) for i in range(len(index))]
+
+    def poses(self, q: Array) -> Array:
+        """Return position and quaternion x y z w of each body, shape (rows, bodies, 7)."""
+        poses = np.empty((len(q), len(self.bodies), 7))
+        for number, link in enumerate(self.bodies):
+            poses[:, number] = seven(self.model.poses(q, link))
+        return poses
+
+    def described(self) -> dict[str, Any]:
+        """Return the parts for the page."""
+        names = [self.model.links[link].name for link in self.bodies]
+        items = [*self._shapes(), *self._visuals()]
+        return {
+            "bodies": names,
+            "items": items,
+            "geometries": self.geometries.stored,
+            "threads": packed(self._threads()),
+            "frames": self._frames(),
+        }
+
+    def _in_body(self, link: int, X_WS: Array) -> tuple[int | None, Array]:
+        """Return the body of a link, and a pose that is fixed to it in the body's frame."""
+        body = self.body_of[link]
+        if body is None or body == WORLD:
+            return body, X_WS
+        return body, np.linalg.solve(self._links[self.bodies[body]], X_WS)
+
+    def _shapes(self) -> list[dict[str, Any]]:
+        items = []
+        for i, placed in enumerate(self.model.shapes):
+            X_WS = self.model.shape_poses(self._rest, i)[0]
+            body, X_BS = self._in_body(placed.link, X_WS)
+            geometry, scale = self.geometries.add(placed.shape)
+            items.append(
+                {
+                    "name": placed.name,
+                    "link": self.model.links[placed.link].name,
+                    "body": body,
+                    "kind": "collision",
+                    "geometry": geometry,
+                    "pose": seven(X_BS[np.newaxis])[0].tolist(),
+                    "scale": scale,
+                }
+            )
+        return items
+
+    def _visuals(self) -> list[dict[str, Any]]:
+        items = []
+        for number, visual in enumerate(visuals_of(self.model)):
+            link = self.model.link(visual.link)
+            body, X_BG = self._in_body(link, self._links[link] @ visual.X_LG.matrix())
+            geometry, scale = self.geometries.add(visual.shape)
+            *colour, alpha = visual.rgba
+            items.append(
+                {
+                    "name": visual.name or f"{visual.link} (visual {number})",
+                    "link": visual.link,
+                    "body": body,
+                    "kind": "visual",
+                    "geometry": geometry,
+                    "pose": seven(X_BG[np.newaxis])[0].tolist(),
+                    "scale": scale,
+                    "colour": "#" + "".join(f"{round(255 * c):02x}" for c in colour),
+                    "alpha": alpha,
+                }
+            )
+        return items
+
+    def _frames(self) -> list[dict[str, Any]]:
+        frames = []
+        for i, link in enumerate(self.model.links):
+            body, X_BL = self._in_body(i, self._links[i])
+            if body is not None:
+                pose = seven(X_BL[np.newaxis])[0].tolist()
+                frames.append({"name": link.name, "body": body, "pose": pose})
+        return frames
+
+    def _threads(self) -> Array:
+        """Return lines fixed to bodies, rows of body and two points in its frame, shape (n, 7).
+
+        They go from the pivot of a turning joint to the shapes that hang on it, and in links
+        without shapes on to the next joints: so that a pendulum and an arm can be seen.
+        """
+        rows: list[list[float]] = []
+        shaped = set()
+        for i, placed in enumerate(self.model.shapes):
+            body, X_BS = self._in_body(placed.link, self.model.shape_poses(self._rest, i)[0])
+            if body is None or body == WORLD or isinstance(placed.shape, HalfSpace):
+                continue
+            shaped.add(body)
+            if self._turns(self.bodies[body]):
+                far = np.linalg.norm(X_BS[:3, 3]) > 1.05 * bounding_radius(placed.shape)
+                if far:
+                    rows.append([body, 0.0, 0.0, 0.0, *X_BS[:3, 3]])
+        for joint in self.model.joints:
+            body, X_BJ = self._in_body(
+                self.model.link(joint.parent), self._links[self.model.link(joint.child)]
+            )
+            slides = joint.type in (JointType.floating, JointType.planar, JointType.prismatic)
+            if body is None or body == WORLD or body in shaped or slides:
+                continue
+            if np.linalg.norm(X_BJ[:3, 3]) > 1e-9:
+                rows.append([body, 0.0, 0.0, 0.0, *X_BJ[:3, 3]])
+        return np.array(rows, float).reshape(-1, 7)
+
+    def _turns(self, link: int) -> bool:
+        """Whether the joint that carries a link turns it about the origin of its frame."""
+        return self._joint_of[self.model.links[link].name].type in TURNING
+
+
+def visuals_of(model: Model) -> list[Any]:
+    """Return the visuals of a model, none where its file has none."""
+    return list(getattr(model, "visuals", ()))
+
+
+def shapeless(model: Model) -> str:
+    """Return what a viewer must know of a model without shapes, "" of others."""
+    if model.shapes:
+        return ""
+    if visuals_of(model):
+        return "This model has visuals but no collision shapes: nothing can touch."
+    return "This model has no shapes: its joints and frames are drawn."
+
+
+def seven(X: Array) -> Array:
+    """Return positions and unit quaternions x y z w of homogeneous matrices, shape (n, 7)."""
+    R = X[:, :3, :3]
+    trace = np.trace(R, axis1=1, axis2=2)
+    # Of the four ways to a quaternion the one whose divisor is largest loses no digits.
+    diagonal = np.concatenate([np.diagonal(R, axis1=1, axis2=2), trace[:, None]], axis=1)
+    largest = diagonal.argmax(axis=1)
+    x = np.empty((len(X), 4))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        at = largest == i
+        x[at, i] = 1 - trace[at] + 2 * R[at, i, i]
+        x[at, j] = R[at, j, i] + R[at, i, j]
+        x[at, k] = R[at, k, i] + R[at, i, k]
+        x[at, 3] = R[at, k, j] - R[at, j, k]
+    at = largest == 3
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        x[at, i] = R[at, k, j] - R[at, j, k]
+    x[at, 3] = 1 + trace[at]
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    return np.concatenate([X[:, :3, 3], x], axis=1)

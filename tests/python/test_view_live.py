@@ -1,0 +1,193 @@
+"""Live pages: frames, sliders, pulling, pause, steps, reset; the program ends with its page."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import urllib.error
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from browser import fetch, until
+from tests.conftest import ROOT
+
+import saltus
+from saltus.view.live import Live
+from saltus.view.pull import Pull, pulled
+from saltus.view.sliders import sliders_of
+
+URDF = ROOT / "urdf"
+WAIT = 60
+
+
+@contextmanager
+def program(*arguments: object):
+    """Run `saltus view --live`, and give the process and the address of its page."""
+    command = [sys.executable, "-m", "saltus", "view", "--live", "--no-browser", *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            line = process.stdout.readline()
+            while line and not line.startswith("page: "):
+                line = process.stdout.readline()
+            yield process, line.removeprefix("page: ").strip()
+        finally:
+            process.kill()
+
+
+@pytest.fixture
+def live_tab(browser):
+    with program(URDF / "double_pendulum.urdf", "--set", "shoulder=0.5") as (process, url):
+        tab = browser.open(url).ready()
+        yield process, tab
+        assert tab.problems == []
+        assert all(request.startswith(url) for request in tab.requests)
+
+
+def at_rest(tab) -> float:
+    """Pause, and return the time that stays."""
+    tab.run("saltus.page.live.wish({ do: 'pause' })")
+    until(lambda: not tab.run("saltus.page.clock.playing"))
+    return tab.run("saltus.time")
+
+
+def test_frames_come_at_once_and_the_program_ends_with_the_page(live_tab):
+    process, tab = live_tab
+    until(lambda: tab.run("saltus.page.live.frames") >= 60)
+    # The best of sixty: others wait for what else this machine does.
+    assert tab.run("Math.min(...saltus.page.live.lags)") < 200
+    assert tab.run("saltus.time") > 0
+    energies = np.array(tab.run("saltus.page.energies.total"))
+    assert np.ptp(energies) < 1e-3 * abs(energies).max()
+    tab.run("window.stop()")
+    tab.ask("Page.navigate", url="about:blank")
+    assert process.wait(WAIT) == 0
+
+
+def test_pause_steps_reset_and_sliders(live_tab):
+    _, tab = live_tab
+    until(lambda: tab.run("saltus.time") > 0)
+    time = at_rest(tab)
+    tab.click("#single")
+    until(lambda: tab.run("saltus.time") > time)
+    assert tab.run("saltus.time") == pytest.approx(time + 1 / 120, abs=1e-12)
+    tab.run("document.getElementById('reset').click()")
+    until(lambda: tab.run("saltus.time") == 0)
+    names = tab.run("saltus.page.data.sliders.map((s) => s.name)")
+    assert names == ["shoulder", "elbow"]
+    tab.run("""(() => { const s = document.getElementById('slider-1');
+        s.value = 1; s.dispatchEvent(new Event('input')); })()""")
+    until(lambda: "1.000 rad" in tab.run("document.getElementById('sliders').textContent"))
+    tab.click("#play")
+    until(lambda: tab.run("saltus.time") > 0)
+
+
+def test_a_body_is_pulled_with_the_mouse(browser, tmp_path):
+    box = tmp_path / "box.urdf"
+    box.write_text("""<robot name="box"><link name="box"><inertial><mass value="1"/>
+        <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>
+        <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link></robot>""")
+    options = ("--floating", "--floor", "--contact", "0,0.5", "--set", "root_z=0.1")
+    with program(box, *options) as (_, url):
+        tab = browser.open(url).ready()
+        until(lambda: tab.run("saltus.page.live.frames") > 5)
+        x, y, _ = tab.run("saltus.project([0, 0, 0.1])")
+        tab.mouse("mousePressed", x, y, buttons=1)
+        tab.mouse("mouseMoved", x, y - 150, buttons=1)
+        height = "saltus.poses()[0][1][2]"
+        until(lambda: tab.run(height) > 0.12)  # it hangs on the point
+        until(lambda: tab.run("saltus.page.live.thread.visible"))
+        tab.mouse("mouseReleased", x, y - 150)
+        until(lambda: tab.run(height) < 0.105)  # it lies on the floor again
+        until(lambda: any(a["kind"] == "force" for a in tab.run("saltus.arrows()")))
+        assert tab.problems == []
+        tab.close()
+
+
+def test_requests_of_others_are_refused():
+    with program(URDF / "double_pendulum.urdf") as (_, url):
+        root = url.rsplit("/", 2)[0]
+        for path, body in (("/", None), ("/guess/", None), ("/guess/do", b'{"do": "reset"}')):
+            with pytest.raises(urllib.error.HTTPError, match="404"):
+                fetch(root + path, body)
+        with pytest.raises(urllib.error.HTTPError) as refused:
+            fetch(url + "do", b'{"do": "explode"}')
+        assert refused.value.code == 400
+        assert "play, pause, step, reset" in refused.value.read().decode()
+        assert b"saltus-data" in fetch(url)
+
+
+def model_of(name: str) -> saltus.Model:
+    return saltus.load_urdf(URDF / f"{name}.urdf")
+
+
+def test_sliders_have_the_limits_of_their_joints():
+    sliders = {s.name: s for s in sliders_of(model_of("arm"), reach=2.0)}
+    assert (sliders["elbow"].lower, sliders["elbow"].upper) == (-2.6, 2.6)
+    assert (sliders["grip"].lower, sliders["grip"].upper) == (0, 0.03)
+    assert "grip_mirror" not in sliders
+    free = saltus.ModelBuilder().add_body("b", saltus.Sphere(0.1), mass=1.0).build()
+    ball = {s.name: s for s in sliders_of(free, reach=2.0)}
+    assert list(ball) == ["b_x", "b_y", "b_z", "b roll", "b pitch", "b yaw"]
+    assert (ball["b_x"].lower, ball["b_x"].upper) == (-2, 2)
+    q = ball["b yaw"].set(free.neutral(), 0.7)
+    assert ball["b yaw"].get(q) == pytest.approx(0.7, abs=1e-12)
+    np.testing.assert_allclose(saltus.Pose.from_quaternion(q[3:]).rpy, [0, 0, 0.7], atol=1e-12)
+
+
+def ask(live: Live, **what: object) -> None:
+    live.do(json.dumps(what).encode())
+
+
+def test_what_cannot_be_is_refused_in_words_and_changes_nothing():
+    model = saltus.load_urdf(URDF / "bouncing_ball.urdf")
+    live = Live(model, model.state({"height": 1.0}), h=0.01)
+    before = live.state
+    with pytest.raises(saltus.ModelError, match="overlap"):
+        ask(live, do="set", slider=0, value=0.0)  # the ball would be in the floor
+    with pytest.raises(saltus.ModelError, match="it is from"):
+        ask(live, do="set", slider=0, value=1e9)
+    with pytest.raises(saltus.ModelError, match="IndexError"):
+        ask(live, do="set", slider=7, value=0.0)
+    with pytest.raises(saltus.ModelError, match="two points"):
+        ask(live, do="pull", body=0, at=[0, 0], to=[0, 0, 0])
+    assert live.state == before
+    ask(live, do="set", slider=0, value=0.5)
+    assert live.state.q[0] == 0.5
+
+
+def test_a_pull_gives_its_impulse_to_the_point():
+    # Of one free ball the spring's force is known: f = m w^2 x, for h a momentum of h f.
+    model = saltus.ModelBuilder().set_gravity((0, 0, 0)).add_body("b", saltus.Sphere(0.1), mass=2.0)
+    model = model.build()
+    state = model.state()
+    new = pulled(model, state, Pull(1, np.zeros(3), np.array([0.1, 0, 0])), 0.01)
+    from saltus.view.pull import FIRM, PULL
+
+    np.testing.assert_allclose(
+        np.array(new.p)[:3], [0.01 * 2.0 / (1 + FIRM) * PULL**2 * 0.1, 0, 0], rtol=1e-12, atol=1e-15
+    )
+    for _ in range(300):
+        state = pulled(model, state, Pull(1, np.zeros(3), np.array([0.1, 0, 0])), 0.01)
+        state = saltus.Stepper(model, 0.01).advance(state)
+    np.testing.assert_allclose(model.pose(state.q, "b").p, [0.1, 0, 0], atol=1e-6)
+
+
+def test_a_step_that_fails_pauses_and_says_why(monkeypatch):
+    model = model_of("double_pendulum")
+    live = Live(model, model.state({"shoulder": 0.5}), h=0.01)
+
+    def fails(_: saltus.State) -> saltus.State:
+        raise saltus.StepError("no step")
+
+    class Broken:
+        advance = staticmethod(fails)
+        report = live.stepper.report
+
+    live.stepper = Broken()
+    before = live.state
+    ask(live, do="step")
+    assert not live.playing
+    assert json.loads(live.frame[1])["problem"] == "stopped: no step"
+    assert live.state == before
