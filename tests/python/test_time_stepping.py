@@ -12,10 +12,10 @@ import saltus
 H = 0.005
 
 
-def throw_in_a_groove(seed: int, *, restitution: float = 0, friction: float = 0, **options):
-    """Return the run of a can that is thrown into a groove of 90 degrees: its caps slap flat."""
+def throw_in_a_groove(seed: int, *, restitution: float = 0.5, friction: float = 0, **options):
+    """Return the run of a coin that is thrown into a groove of 90 degrees: its caps slap flat."""
     rng = np.random.default_rng(seed)
-    builder = saltus.ModelBuilder().add_body("can", saltus.Cylinder(0.1, 0.1), mass=1)
+    builder = saltus.ModelBuilder().add_body("coin", saltus.Cylinder(0.1, 0.02), mass=1)
     builder.add_half_space("left", (1, 0, 1)).add_half_space("right", (-1, 0, 1))
     builder.set_default_contact(restitution=restitution, friction=friction)
     model = builder.build()
