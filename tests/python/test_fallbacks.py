@@ -26,7 +26,8 @@ def start(model: saltus.Model) -> dict[str, object]:
 def test_never_is_an_error_that_keeps_what_was_before():
     model = coin()
     with pytest.raises(
-        saltus.StepError, match=r"body\[rim\+\] ~ floor overlap by .* m where the arc .*; a smaller h"
+        saltus.StepError,
+        match=r"body\[rim\+\] ~ floor overlap by .* m where the arc .*; a smaller h",
     ) as error:
         saltus.simulate(model, **start(model), duration=0.5, h=H, max_halvings=0, strict=True)
     rows = error.value.trajectory

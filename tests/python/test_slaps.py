@@ -28,14 +28,14 @@ def let_go(tilt: float, azimuth: float, restitution: float, friction: float, dur
 @pytest.mark.filterwarnings("ignore::saltus.StepWarning")
 def test_it_slaps_down(azimuth, tilt, restitution, friction):
     run = let_go(tilt, azimuth, restitution, friction)
-    lossy = run.fallbacks["t"][run.fallbacks["rung"] != "halved"]
-    steps = len(np.unique((lossy / H + 1e-9).astype(int)))
-    # what friction turns within the arc that the rim passes level in; of 60 steps up to 25 were so
-    assert steps <= (2 if friction > 0 else 0)
+    lossy = run.fallbacks["tau"][run.fallbacks["rung"] != "halved"]
+    # what friction turns within the arc that the rim passes level in; it was up to 25 of 60 steps
+    assert lossy.sum() <= (0.01 * run.t[-1] if friction > 0 else 0)
     assert len(run.impacts) > 0
     assert min(run.model.gaps(q).phi.min() for q in run.q) > -1e-10
-    # the swing of a midpoint, (h omega)^2 / 8: omega is 7 rad/s at the slap
-    assert (run.total - np.minimum.accumulate(run.total)).max() < 5e-4 * run.kinetic.max()
+    # midpoints swing by (h omega)^2 / 8, 2e-4 of what moves at 7 rad/s; a rim that friction turns
+    # as it passes level by more
+    assert (run.total - np.minimum.accumulate(run.total)).max() < 2e-3 * run.kinetic.max()
 
 
 @pytest.mark.parametrize("azimuth", [0, 0.3])

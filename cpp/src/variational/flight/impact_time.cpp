@@ -119,7 +119,9 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
   const double back = std::min(tau, -c.u * tau * tau / drop);
   // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
   f.settling_time = back / (1 - c.restitution);
-  if (c.u > 0 && c.restitution < 1 && f.settling_time <= tau) return ImpactTime::settles;
+  // A step does not follow what is back within half of it: a contact rebounds twice a step at most.
+  const bool is_last = f.settling_time <= tau || back <= scene.options.h / 2;
+  if (c.u > 0 && c.restitution < 1 && is_last) return ImpactTime::settles;
   if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;
