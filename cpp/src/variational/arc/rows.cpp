@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "saltus/collision/slip.hpp"
 #include "variational/arc/memory.hpp"
 
 namespace saltus {
@@ -98,7 +99,8 @@ void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
   row.contact = contact;
   row.slot = c.slot;
   row.pair = &node.pool[c.slot];
-  row.is_active = row.is_frozen = row.is_point = false;
+  row.is_active = row.is_frozen = row.is_point = row.slides = false;
+  row.axis = tangent_axis(c.n_W);
   // many that touch cannot all be brought to 0: they stay where rounding left them
   row.target = std::min(c.phi, 0.0);
   row.p.setZero();

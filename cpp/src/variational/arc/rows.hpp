@@ -33,6 +33,8 @@ struct Row {
   Pair frozen;
   Vec3 point_B;                   ///< where a frozen row starts, in the frame of b's joint
   std::array<Vec3, 2> t_B;        ///< and its tangents there
+  int axis = 0;                   ///< tangent_axis of its normal at the start
+  bool slides = false;            ///< in the arc solved: p is on its cone, against the sliding
   double target = 0;              ///< [m] lowest gap by the arc's end
   Vec3 p = Vec3::Zero();          ///< [N s] guess in, solution out; of what is not solved for 0
   bool is_active = false;         ///< solved for
