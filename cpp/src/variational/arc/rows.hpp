@@ -12,8 +12,9 @@
 // border and beyond; so is the end of a rod that slides lengthwise over a border. What bears there
 // at the arc's end is another pair (edges that cross, a second table), and that rests from the next
 // node on. A rim is held where it is lowest, so that it rolls; in an arc that it comes to lie flat
-// in, at the point that it rests on at the arc's start. A point's rates are its chord over the arc, seen from the face's body, so that
-// those of several corners of one body never contradict each other.
+// in, at the point that it rests on at the arc's start. A point's rates are its chord over the arc,
+// seen from the face's body, so that those of several corners of one body never contradict each
+// other.
 #pragma once
 
 #include <array>

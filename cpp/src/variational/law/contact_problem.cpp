@@ -23,8 +23,8 @@ void check_arrays(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>&
     text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << counted(n, "entry")
          << ", so M is (" << n << ", " << n << ")";
   } else if (N.cols() != n && N.rows() > 0) {
-    text << "N is (" << N.rows() << ", " << N.cols() << "); v has "
-         << counted(n, "entry") << ", so N is (contacts, " << n << "), a row a contact";
+    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << counted(n, "entry")
+         << ", so N is (contacts, " << n << "), a row a contact";
   } else if (!M.allFinite() || !N.allFinite() || !v.allFinite()) {
     text << "M, N or v holds a value that is not finite";
   } else if ((M - M.transpose()).norm() > 1e-12 * M.norm()) {

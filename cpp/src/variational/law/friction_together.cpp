@@ -117,8 +117,8 @@ bool collide_part(const ContactBlocks& W, double most_restitution, PileScratch& 
 bool collide_together(const ContactBlocks& W, int max_impulses, PileScratch& pile,
                       std::vector<Vec3>& u, std::vector<FrictionImpulse>& impulses) {
   const std::size_t first = impulses.size();
-  const bool loses = std::any_of(W.restitution.begin(), W.restitution.end(),
-                                 [](double e) { return e < 1; });
+  const bool loses =
+      std::any_of(W.restitution.begin(), W.restitution.end(), [](double e) { return e < 1; });
   const std::size_t plenty = 32 * static_cast<std::size_t>(W.size()) + 64;
   std::vector<Vec3> u_part, p;
   for (;;) {

@@ -188,7 +188,7 @@ bool find_contacts(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
   if (model.pairs.empty()) return true;
   node.dq = scene.options.simultaneous * scene.options.h * node.v;
-  find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, scene.most_touch,
+  find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, most_touch(scene, node),
                   node.broad);
   reset_contacts(node);
   if (node.broad.candidates.empty()) return true;
@@ -198,7 +198,7 @@ bool find_contacts(const Scene& scene, Node& node) {
   bool is_near = true;
   FirstOf first;
   for (const int number : node.broad.candidates) {
-    const int slot = node.pool.slot_of(model, number);
+    const int slot = slot_at(scene, number, node);
     fit(node);
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
       merge_witnesses(first, node);

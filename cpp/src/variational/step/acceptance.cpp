@@ -52,7 +52,7 @@ void Stepper::Impl::check_energy() {
   const double most = halves_left() ? 0.02 : 0.3;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double h = scene.options.h;
-  const double slow = h * scene.model.mass.gravity.norm() + scene.most_touch / h;
+  const double slow = h * scene.model.mass.gravity.norm() + most_touch(scene, node) / h;
   const double least = 0.5 * scene.total_mass * slow * slow;
   const double gain = node_energy(scene, node) - energy;
   if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least})) fail_energy(gain);
