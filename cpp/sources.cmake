@@ -95,6 +95,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/law/coulomb.cpp
   cpp/src/variational/law/friction.cpp
   cpp/src/variational/law/friction_scratch.cpp
+  cpp/src/variational/law/friction_together.cpp
   cpp/src/variational/law/generalized_reflections.cpp
   cpp/src/variational/law/pile.cpp
   cpp/src/variational/law/pile_island.cpp
@@ -127,6 +128,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/flight/launch.cpp
   cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
+  cpp/src/variational/step/lift.cpp
   cpp/src/variational/step/start_overlap.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/step_input.cpp

@@ -59,6 +59,7 @@ set(SALTUS_TEST_model
 # The law of contacts by itself; compiled with the sources of its room, which export little.
 set(SALTUS_TEST_law
   law/test_cascade.cpp
+  law/test_friction_together.cpp
   law/test_one.cpp
   law/test_project.cpp
   law/test_settle.cpp

@@ -78,7 +78,7 @@ def test_what_a_function_does_wrong_is_said():
     with pytest.raises(TypeError, match="the custom law returned 'p'; it is to return"):
         stepper.advance(state)
     stepper = saltus.Stepper(ball(1.0), law=lambda problem: [1.0, 2.0])
-    with pytest.raises(saltus.StepError, match="returned 2 momenta; the model has 1 coordinates"):
+    with pytest.raises(saltus.StepError, match="returned 2 momenta; the model has 1 velocity"):
         stepper.advance(state)
     stepper = saltus.Stepper(ball(1.0), law=lambda problem: 1 / 0)
     with pytest.raises(ZeroDivisionError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 
 import numpy as np
@@ -12,10 +13,10 @@ import saltus
 H = 0.005
 
 
-def throw_in_a_groove(seed: int, *, restitution: float = 0, friction: float = 0, **options):
-    """Return the run of a can that is thrown into a groove of 90 degrees: its caps slap flat."""
+def throw_in_a_groove(seed: int, *, restitution: float = 0.5, friction: float = 0, **options):
+    """Return the run of a coin that is thrown into a groove of 90 degrees: its caps slap flat."""
     rng = np.random.default_rng(seed)
-    builder = saltus.ModelBuilder().add_body("can", saltus.Cylinder(0.1, 0.1), mass=1)
+    builder = saltus.ModelBuilder().add_body("coin", saltus.Cylinder(0.1, 0.02), mass=1)
     builder.add_half_space("left", (1, 0, 1)).add_half_space("right", (-1, 0, 1))
     builder.set_default_contact(restitution=restitution, friction=friction)
     model = builder.build()
@@ -56,15 +57,25 @@ def test_it_is_used_and_rare(runs):
         assert ("by time stepping" in run.summary()) == (len(rows) > 0)
 
 
-def test_one_warning_a_run_and_an_error_if_strict(runs):
+def test_one_warning_a_run(runs):
     seed = next(i for i, run in enumerate(runs) if len(lossy(run)))
     with pytest.warns(
         saltus.StepWarning, match="by time stepping, which took .* J: the first"
     ) as w:
         throw_in_a_groove(seed)
     assert len([each for each in w if each.category is saltus.StepWarning]) == 1
-    with pytest.raises(saltus.StepError, match=r"arcs of 7\.8125e-05 s fail as well"):
-        throw_in_a_groove(seed, strict=True)
+
+
+def test_strict_runs_end_in_an_error_instead(runs):
+    """But for those that bounce without end, which strict ones have a larger budget for."""
+    texts = []
+    for seed, run in enumerate(runs):
+        if len(lossy(run)) > 0:
+            try:
+                throw_in_a_groove(seed, strict=True)
+            except saltus.StepError as error:
+                texts.append(str(error))
+    assert any(re.search(r"arcs of .* s fail as well", text) for text in texts)
 
 
 def test_the_report_and_the_file_have_them(runs, tmp_path):

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saltus/collision/slip.hpp"
+#include "variational/law/coulomb.hpp"
+
 namespace saltus {
 namespace {
 
@@ -20,11 +23,30 @@ Contact* held_contact(const Scene& scene, const Row& row, std::size_t used, Node
   return &own;
 }
 
+/// The friction of a row that slid, per unit of its normal impulse, along the tangents of the
+/// contact at the arc's end.
+Vec3 push_of(const Scene& scene, const Row& row, const Contact& c, const Node& node) {
+  if (!row.slides || !(c.friction > 0)) return Vec3::Zero();
+  Vec3 d_W;
+  if (row.is_frozen) {
+    const Pose X_WJ = node.kin.X_WJ(scene.model.tree, row.pair->on_b.joint);
+    d_W = X_WJ.R * (row.p[1] * row.t_B[0] + row.p[2] * row.t_B[1]);
+  } else {
+    const Tangents t = tangents(c.n_W, row.axis);
+    d_W = row.p[1] * t.t0 + row.p[2] * t.t1;
+  }
+  const Vec2 d(d_W.dot(c.t_W[0]), d_W.dot(c.t_W[1]));
+  if (!(d.norm() > 0)) return Vec3::Zero();
+  const Vec2 beta = c.friction * d.normalized();
+  return Vec3(1, beta[0], beta[1]);
+}
+
 /// Those that the arc pressed, and of those that rested at its start and were not pressed what
 /// approaches: that has not come here by itself.
 void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& kick) {
   kick.contacts.clear();
   kick.p.clear();
+  kick.push.clear();
   while (static_cast<int>(kick.own.size()) < rows.count) kick.own.push_back(fresh_contact(scene));
   for (int i = 0; i < rows.count; ++i) {
     const Row& row = rows.row[i];
@@ -42,13 +64,54 @@ void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& k
     if (c == nullptr) continue;
     kick.contacts.push_back(c);
     kick.p.push_back(row.p);  // the opening half kick is near
+    kick.push.push_back(push_of(scene, row, *c, node));
   }
 }
 
-/// The law, at all of them together. Changes p, v and what contacts do.
-void share(const Scene& scene, Node& node, HalfKick& kick) {
+/// True where the friction of a normal impulse is against the slip.
+bool is_against_slip(const Scene& scene, const Contact& c, const Vec3& push, const VecX& v) {
+  return push[1] * dot(scene.trees, c.t[0], v) + push[2] * dot(scene.trees, c.t[1], v) <= 0;
+}
+
+/// Where the direction of friction is given, a contact has one rate, u_n, and one impulse.
+void hold_directions(HalfKick& kick) {
+  ContactBlocks& W = kick.W;
+  for (int j = 0; j < W.size(); ++j) {
+    const bool given = !kick.push[j].isZero(0);
+    for (int k = W.start[j]; k < W.start[j + 1]; ++k) {
+      Mat3& block = W.block[k];
+      if (given) block << Vec3(block * kick.push[j]), Vec3::Zero(), Vec3::Zero();
+      if (!kick.push[W.contact[k]].isZero(0)) block.bottomRows<2>().setZero();
+    }
+    if (!given) continue;
+    W.own[j] = Vec3(W.own[j].row(0).dot(kick.push[j]), 0, 0).asDiagonal();
+    W.friction[j] = 0;
+    kick.u[j].tail<2>().setZero();
+    kick.p[j].tail<2>().setZero();
+  }
+}
+
+/// Coulomb's law of all where friction that is given would draw its contact in, or push it on.
+/// @return true where one has changed
+bool release(const Scene& scene, const Node& node, HalfKick& kick) {
+  bool released = false;
+  for (std::size_t i = 0; i < kick.push.size(); ++i) {
+    if (kick.push[i].isZero(0)) continue;
+    if (is_against_slip(scene, *kick.contacts[i], kick.push[i], node.v)) continue;
+    kick.push[i].setZero();
+    released = true;
+  }
+  return released;
+}
+
+/// The law, at all of them together. Changes p and v.
+void share_once(const Scene& scene, Node& node, HalfKick& kick) {
   set_contact_blocks(scene, kick.contacts, node, kick.neighbours, kick.W, kick.u);
-  kick.pile.reserve(kick.contacts.size());
+  for (std::size_t i = 0; i < kick.push.size(); ++i) {  // Painleve's: it would draw in
+    const Mat3& own = kick.W.own[i];
+    if (!(own.row(0).dot(kick.push[i]) > 0.1 * own(0, 0))) kick.push[i].setZero();
+  }
+  hold_directions(kick);
   add_rates(kick.W, kick.p, kick.u);
   kick.residual = settle_for_sure(kick.W, kick.pile, kick.u, kick.p).excess;
   kick.unlawful =
@@ -58,8 +121,25 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
     kick.dry_rate.push_back(c->bound > 0 ? dot(scene.trees, c->n, node.v) : 0);
   }
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
+    if (!kick.push[i].isZero(0)) kick.p[i] = kick.p[i][0] * kick.push[i];
+    apply(scene, *kick.contacts[i], kick.p[i], node);
+  }
+}
+
+void share(const Scene& scene, Node& node, HalfKick& kick) {
+  kick.pile.reserve(kick.contacts.size());
+  release(scene, node, kick);
+  const bool any = std::any_of(kick.push.begin(), kick.push.end(),
+                               [](const Vec3& push) { return !push.isZero(0); });
+  if (any) kick.p_before = node.p, kick.v_before = node.v;
+  share_once(scene, node, kick);
+  while (any && release(scene, node, kick)) {  // fewer are given each time
+    node.p = kick.p_before;
+    node.v = kick.v_before;
+    share_once(scene, node, kick);
+  }
+  for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
     const Contact& c = *kick.contacts[i];
-    apply(scene, c, kick.p[i], node);
     if (c.bound > 0) continue;
     kick.impulses.push_back(acted(node, c, kick.p[i][0], across(c, kick.p[i])));
   }
@@ -80,7 +160,8 @@ HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
   for (std::size_t i = 0; i < reserved; ++i) own.push_back(fresh_contact(scene));
   impulses.reserve(reserved);
   contacts.reserve(reserved);
-  for (auto* each : {&u, &p}) each->reserve(reserved);
+  for (auto* each : {&u, &p, &push}) each->reserve(reserved);
+  for (VecX* x : {&p_before, &v_before}) x->setZero(scene.model.tree.n_v);
   pile.reserve(boxes);
   reserve(W, boxes);
 }

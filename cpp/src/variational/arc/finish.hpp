@@ -8,6 +8,11 @@
 // table, a corner that has come onto the face. With it they find a body at rest, u = 0, and the
 // next arc presses them. Where it bore the load is off by what it slid in one arc, O(h), for that
 // arc.
+//
+// What slid in the arc has friction in the direction of the opening kick, that of its slip in the
+// arc's middle: the two kicks together are of second order then, also where the direction turns. So
+// long as that is against the slip before and after the kick; else Coulomb's law says, as of what
+// stuck.
 #pragma once
 
 #include "variational/arc/solve.hpp"
@@ -30,6 +35,8 @@ struct HalfKick {
   ContactBlocks W;
   std::vector<Vec3> u, p;
   std::vector<double> dry_rate;  ///< (contacts) of joints, before
+  std::vector<Vec3> push;  ///< (1, friction) of a normal impulse of 1 where it slid; else zero
+  VecX p_before, v_before;
   PileScratch pile;
 };
 

@@ -22,7 +22,7 @@ void set_sliding(const ModelData& model, const Contact& c, const Arc& arc, Row& 
   }
 }
 
-/// Tangential rates of a corner: its chord on the plane, as b's body sees it.
+/// Tangential rates of a point: its chord on the plane, as b's body sees it.
 void set_chord(const ModelData& model, const Gap& g, double tau, Row& row, Vec3& u, ArcScratch& s) {
   const Pose X_WJ = s.kin_end.X_WJ(model.tree, row.frozen.on_b.joint);
   const Vec3 chord = g.p_WA - (X_WJ.p + X_WJ.R * row.point_B);
@@ -40,8 +40,6 @@ void set_joint_rate(const Scene& scene, const Contact& c, const Arc& arc, Row& r
   add(scene.trees, 1, c.n, row.rate[0]);
   u = Vec3(dot(scene.trees, c.n, arc.v), 0, 0);
 }
-
-bool is_corner(const Row& row) { return row.is_frozen && !row.pair->inward.empty(); }
 
 /// Rates of the active rows at arc.v, and their gradients by the configuration they are of. Needs
 /// the poses in the arc's middle.
@@ -63,12 +61,12 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
     const bool slides = c.friction > 0;
     Vec3& u = rows.u[i];
     u.setZero();
-    if (slides && !is_corner(row)) set_sliding(model, c, work.arc, row, u, s);
+    if (slides && !row.is_point) set_sliding(model, c, work.arc, row, u, s);
     const Gap g = pair_gap_at_end(model, row.watched(), s);
     row.rate[0].setZero();
     add_gap_gradient(model.tree, s.kin_end, row.watched(), g, row.rate[0]);
     u[0] = (g.phi - row.target) / tau;
-    if (slides && is_corner(row)) set_chord(model, g, tau, row, u, s);
+    if (slides && row.is_point) set_chord(model, g, tau, row, u, s);
   }
 }
 
@@ -76,7 +74,7 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
 void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
   const ModelData& model = scene.model;
   ArcScratch& s = work.scratch;
-  const bool is_chord = is_corner(row);
+  const bool is_chord = row.is_point;
   for (int k = 0; k < c.rates(); ++k) {
     const bool is_of_end = (k == 0 && !row.is_joint()) || is_chord;
     if (is_of_end) pull_back_end(model.packed, s.J, row.rate[k]);

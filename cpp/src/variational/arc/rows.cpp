@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "saltus/collision/slip.hpp"
 #include "variational/arc/memory.hpp"
 
 namespace saltus {
@@ -36,6 +37,7 @@ void freeze(const ModelData& model, const Node& node, Row& row) {
   const Contact& contact = node.contacts[row.contact];
   const Pair& pair = *row.pair;
   row.is_frozen = true;
+  row.is_point = !pair.inward.empty() && std::holds_alternative<Sphere>(pair.on_a.shape);
   row.frozen.kind = Whole{};
   row.frozen.on_a = pair.on_a;
   row.frozen.on_b.joint = pair.on_b.joint;
@@ -47,6 +49,26 @@ void freeze(const ModelData& model, const Node& node, Row& row) {
   for (int k = 0; k < 2 && contact.friction > 0; ++k) {
     row.t_B[k] = X_WJ.R.transpose() * contact.t_W[k];
   }
+}
+
+bool is_rolling_rim(const Row& row) {
+  return std::holds_alternative<Rim>(row.pair->kind) && !row.is_point;
+}
+
+Vec3 in_frame(const Pose& X_WJ, const Vec3& p_W) { return X_WJ.R.transpose() * (p_W - X_WJ.p); }
+
+/// Where it touches at the node, in the frame of a's joint.
+Vec3 start_on_a(const ModelData& model, const Node& node, const Row& row) {
+  const Contact& c = node.contacts[row.contact];
+  return in_frame(node.kin.X_WJ(model.tree, row.pair->on_a.joint), c.p_WB + c.phi * c.n_W);
+}
+
+/// Holds a rim at the point that touches at the node.
+void freeze_point(const ModelData& model, const Node& node, Row& row) {
+  freeze(model, node, row);
+  row.is_point = true;
+  row.frozen.on_a.shape = Sphere{0};
+  row.frozen.on_a.X_JG = Pose{Mat3::Identity(), start_on_a(model, node, row)};
 }
 
 void fit(int n_v, bool with_friction, Row& row) {
@@ -77,7 +99,8 @@ void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
   row.contact = contact;
   row.slot = c.slot;
   row.pair = &node.pool[c.slot];
-  row.is_active = row.is_frozen = false;
+  row.is_active = row.is_frozen = row.is_point = row.slides = false;
+  row.axis = tangent_axis(c.n_W);
   // many that touch cannot all be brought to 0: they stay where rounding left them
   row.target = std::min(c.phi, 0.0);
   row.p.setZero();
@@ -91,7 +114,7 @@ void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {
   row.contact = -1 - dry;
   row.slot = -2 - dry;
   row.pair = nullptr;
-  row.is_active = row.is_frozen = false;
+  row.is_active = row.is_frozen = row.is_point = row.slides = false;
   row.target = 0;
   row.p.setZero();
   const auto k = static_cast<std::size_t>(dry);
@@ -200,9 +223,33 @@ bool level_held_ends(const Scene& scene, const Node& node, Rows& rows) {
   bool changed = false;
   for (int i = 0; i < rows.count; ++i) {
     Row& row = rows.row[i];
-    if (row.is_joint() || !row.is_active || row.is_frozen) continue;
-    if (!is_rod_end(scene.model, *row.pair)) continue;
-    freeze(scene.model, node, row);
+    if (row.is_joint() || !row.is_active) continue;
+    if (is_rolling_rim(row)) {
+      freeze_point(scene.model, node, row);
+    } else if (!row.is_frozen && is_rod_end(scene.model, *row.pair)) {
+      freeze(scene.model, node, row);
+    } else {
+      continue;
+    }
+    changed = true;
+  }
+  return changed;
+}
+
+bool hold_rims_at_points(const Scene& scene, const VecX& q_end, const Node& node, Rows& rows,
+                         ArcScratch& s) {
+  const Tree& tree = scene.model.tree;
+  bool changed = false, placed = false;
+  for (const int i : rows.active) {
+    Row& row = rows.row[i];
+    if (row.is_joint() || !is_rolling_rim(row)) continue;
+    if (!placed) place_end(scene.model, q_end, s);
+    placed = true;
+    const Gap g = pair_gap_at_end(scene.model, row.watched(), s);
+    const Vec3 middle = row.pair->on_a.X_JG.p;
+    const Vec3 end = in_frame(s.kin_end.X_WJ(tree, row.pair->on_a.joint), g.p_WA);
+    if ((end - middle).dot(start_on_a(scene.model, node, row) - middle) > 0) continue;
+    freeze_point(scene.model, node, row);
     changed = true;
   }
   return changed;

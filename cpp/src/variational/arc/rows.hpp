@@ -14,8 +14,10 @@
 // A sharp corner on a face is held in the plane that the face has at the arc's start, within its
 // border and beyond; so is the end of a rod that slides lengthwise over a border. What bears there
 // at the arc's end is another pair (edges that cross, a second table), and that rests from the next
-// node on. Its rates are the chord of the corner over the arc, seen from the face's body, so that
-// those of several corners of one body never contradict each other.
+// node on. A rim is held where it is lowest, so that it rolls; in an arc that it comes to lie flat
+// in, at the point that it rests on at the arc's start. A point's rates are its chord over the arc,
+// seen from the face's body, so that those of several corners of one body never contradict each
+// other.
 #pragma once
 
 #include <array>
@@ -31,9 +33,12 @@ struct Row {
   int slot = -1;     ///< of its pair in the pool; -2 - k of dry[k]
   const Pair* pair = nullptr;  ///< likewise; none of a joint
   bool is_frozen = false;      ///< held in a plane of b: `frozen` is the pair
+  bool is_point = false;       ///< and there at a point of a: a corner, or one of a rim
   Pair frozen;
   Vec3 point_B;                   ///< where a frozen row starts, in the frame of b's joint
   std::array<Vec3, 2> t_B;        ///< and its tangents there
+  int axis = 0;                   ///< tangent_axis of its normal at the start
+  bool slides = false;            ///< in the arc solved: p is on its cone, against the sliding
   double target = 0;              ///< [m] lowest gap by the arc's end
   Vec3 p = Vec3::Zero();          ///< [N s] guess in, solution out; of what is not solved for 0
   bool is_active = false;         ///< solved for
@@ -98,9 +103,18 @@ void rest_from_now(const Scene& scene, int contact, const Node& node, Rows& rows
 bool press_rows(const Scene& scene, const VecX& q_end, const Node& node, Rows& rows, ArcScratch& s);
 
 /// For an arc without a solution: one that holds the round end of a rod on two flush tables can
-/// follow neither round its border. All ends are held in the planes of their faces from now on.
+/// follow neither round its border, and one in which a can slaps down flat has no lowest point of
+/// its rim to follow. All ends are held in the planes of their faces from now on, and all rims at
+/// the point that they rest on.
 /// @return false if they are already
 bool level_held_ends(const Scene& scene, const Node& node, Rows& rows);
+
+/// A rim whose lowest point went by more than a quarter of it in the arc has passed level, where
+/// that point leaps to the other side: it is held at the point that it rests on from now on. The
+/// arc that did so is no guess.
+/// @return true where there is one
+bool hold_rims_at_points(const Scene& scene, const VecX& q_end, const Node& node, Rows& rows,
+                         ArcScratch& s);
 
 /// Impulses of the rows for an arc of another duration.
 void scale_impulses(double tau, Rows& rows);

@@ -34,6 +34,9 @@ void give_impulses(Rows& rows) {
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
     Row& row = active_row(rows, k);
     row.p = row.is_joint() || rows.p[k][0] > 1e-13 * size ? rows.p[k] : Vec3::Zero();
+    const double most = rows.W.friction[k] * row.p[0];
+    row.slides = most > 0 && row.p.tail<2>().norm() >= (1 - 1e-9) * most &&
+                 rows.u[k].tail<2>().norm() > rows.W.rest[k];
   }
 }
 

@@ -47,7 +47,7 @@ FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
   const Pair* solid = nullptr;
   bool is_clear = false;
   for (const int number : f.broad.candidates) {
-    const int slot = node.pool.slot_of(model, number);
+    const int slot = slot_at(scene, number, node);
     f.skips.fit(node.pool.size());
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
       solid = node.pool.solid(slot);

@@ -46,6 +46,11 @@ bool solve_first_arc(const Scene& scene, double left, const Node& node, const Me
   return is_free && guess_from_momenta(scene, node, work) && solve(scene, left, node, work);
 }
 
+void start_from_node(const Node& node, ArcWork& work) {
+  forget_impulses(work.rows);
+  work.arc.v = node.v;
+}
+
 FlightOutcome no_arc(const ArcWork& work) {
   const bool has_arc = !work.rows.active.empty() && work.arc.residual <= most_residual;
   return has_arc ? FlightOutcome::law_not_met : FlightOutcome::not_converged;
@@ -118,7 +123,11 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   work.line.use = LaunchLine::Use::none;
   f.has_missed_energy = false;
   make_rows(scene, left, node, memory, work.rows);
-  if (!solve_first_arc(scene, left, node, memory, work)) return no_arc(work);
+  if (!solve_first_arc(scene, left, node, memory, work)) {
+    if (!level_held_ends(scene, node, work.rows)) return no_arc(work);
+    work.arc.v = node.v;
+    if (!solve(scene, left, node, work)) return no_arc(work);
+  }
   memory.has_rate = false;
   double tau = left;
   bool solved = true;
@@ -132,6 +141,11 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       solved = false;
       if (press_rows(scene, work.arc.q_end, node, work.rows, work.scratch)) {
         f.skips.watch_again();
+        continue;
+      }
+      if (hold_rims_at_points(scene, work.arc.q_end, node, work.rows, work.scratch)) {
+        f.skips.watch_again();
+        start_from_node(node, work);
         continue;
       }
       const FirstHit hit = first_hit(scene, node, f);

@@ -73,10 +73,16 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
   const double touch = pair.touch;
   const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();
+  double tau_last = tau, phi_last = phi_before;
   // bisection alone takes 60 halvings to the last bit; Newton 3 to 5 steps
   for (int k = 0; k < 100; ++k) {
     if (!solve(scene, tau, node, f.work)) return ImpactTime::not_converged;
-    const GapAtEnd g = gap_at_end(scene, pair, memory, f);
+    GapAtEnd g = gap_at_end(scene, pair, memory, f);
+    // the slope of a held arc leaves aside what holds it
+    const double secant = (g.phi - phi_last) / (tau - tau_last);
+    if (k > 2 && !is_free(f.work) && std::isfinite(secant)) g.slope = secant;
+    tau_last = tau;
+    phi_last = g.phi;
     const bool stalled = std::abs(g.phi) <= touch / 2 && std::abs(g.phi) >= phi_before / 2;
     if (std::abs(g.phi) <= 1e-3 * touch || stalled) return ImpactTime::found;
     if (g.phi > 0 && tau >= whole) return ImpactTime::missed;
@@ -113,7 +119,9 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
   const double back = std::min(tau, -c.u * tau * tau / drop);
   // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
   f.settling_time = back / (1 - c.restitution);
-  if (c.u > 0 && c.restitution < 1 && f.settling_time <= tau) return ImpactTime::settles;
+  // A step does not follow what is back within half of it: a contact rebounds twice a step at most.
+  const bool is_last = f.settling_time <= tau || back <= scene.options.h / 2;
+  if (c.u > 0 && c.restitution < 1 && is_last) return ImpactTime::settles;
   if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;

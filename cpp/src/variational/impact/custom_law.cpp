@@ -40,8 +40,8 @@ void check_answer(const ModelData& model, const Node& node, const ImpactProblem&
                   const VecX& p) {
   std::ostringstream text;
   if (p.size() != problem.p.size()) {
-    text << "returned " << p.size() << " momenta; the model has " << problem.p.size()
-         << " coordinates";
+    text << "returned " << p.size() << (p.size() == 1 ? " momentum" : " momenta")
+         << "; the model has " << counted(problem.p.size(), "velocity");
   } else if (!p.allFinite()) {
     text << "returned a momentum that is not finite";
   } else {

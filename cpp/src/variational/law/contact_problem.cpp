@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "saltus/error.hpp"
+#include "saltus/model/model.hpp"
 
 namespace saltus {
 namespace {
@@ -18,11 +20,11 @@ void check_arrays(const Eigen::Ref<const MatX>& M, const Eigen::Ref<const MatX>&
   std::ostringstream text;
   const auto n = v.size();
   if (M.rows() != n || M.cols() != n) {
-    text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << n << " entries, so M is ("
-         << n << ", " << n << ")";
+    text << "M is (" << M.rows() << ", " << M.cols() << "); v has " << counted(n, "entry")
+         << ", so M is (" << n << ", " << n << ")";
   } else if (N.cols() != n && N.rows() > 0) {
-    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << n
-         << " entries, so N is (contacts, " << n << "), a row a contact";
+    text << "N is (" << N.rows() << ", " << N.cols() << "); v has " << counted(n, "entry")
+         << ", so N is (contacts, " << n << "), a row a contact";
   } else if (!M.allFinite() || !N.allFinite() || !v.allFinite()) {
     text << "M, N or v holds a value that is not finite";
   } else if ((M - M.transpose()).norm() > 1e-12 * M.norm()) {
@@ -35,8 +37,8 @@ void check_contacts(const Eigen::Ref<const MatX>& N, const VecRef& restitution) 
   const auto m = N.rows();
   std::ostringstream text;
   if (restitution.size() != m) {
-    text << "restitution has " << restitution.size() << " entries; N has " << m
-         << " rows, a row a contact";
+    text << "restitution has " << counted(restitution.size(), "entry") << "; N has "
+         << counted(m, "row") << ", a row a contact";
     throw ModelError(text.str());
   }
   for (Eigen::Index i = 0; i < m; ++i) {

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "saltus/model/model.hpp"
 #include "variational/law/contact_problem.hpp"
 #include "variational/law/coulomb.hpp"
-#include "variational/law/pile.hpp"
+#include "variational/law/friction_together.hpp"
 
 namespace saltus {
 namespace {
@@ -69,7 +70,8 @@ void check_friction(const Eigen::Ref<const MatX>& N, const Eigen::Ref<const MatX
     text << "T is (" << T.rows() << ", " << T.cols() << "); N is (" << N.rows() << ", " << N.cols()
          << "), so T is (" << 2 * N.rows() << ", " << N.cols() << "), two rows a contact";
   } else if (friction.size() != N.rows()) {
-    text << "friction has " << friction.size() << " entries; N has " << N.rows() << " rows";
+    text << "friction has " << counted(friction.size(), "entry") << "; N has "
+         << counted(N.rows(), "row");
   } else if (!T.allFinite()) {
     text << "T holds a value that is not finite";
   } else if (friction.size() > 0 && !(friction.minCoeff() >= 0 && friction.allFinite())) {
@@ -93,6 +95,9 @@ bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch&
              std::vector<Vec3>& u, std::vector<Vec3>& scratch,
              std::vector<FrictionImpulse>& impulses) {
   if (all_plastic(W)) return stop_together(W, pile, u, scratch, impulses);
+  if (options.order == ImpactOrder::symmetric) {
+    return collide_together(W, options.max_impulses, pile, u, impulses);
+  }
   for (int count = 0;; ++count) {
     const int i = next_contact(W, options.order, u);
     if (i < 0) return true;

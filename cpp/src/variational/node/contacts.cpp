@@ -87,6 +87,58 @@ void set_tangents(const Scene& scene, const Gap& gap, const Pair& pair, Node& no
   }
 }
 
+/// What the parts of two solids have found: lists from there on are theirs.
+struct FirstOf {
+  int contact = 0;
+  std::size_t silent = 0;
+};
+
+void remove_contact(int at, Node& node) {
+  node.contact_of[node.contacts[at].slot] = -1;
+  const auto begin = node.contacts.begin();
+  std::rotate(begin + at, begin + at + 1, begin + node.touching);  // the pool keeps its room
+  --node.touching;
+  for (int i = at; i < node.touching; ++i) node.contact_of[node.contacts[i].slot] = i;
+}
+
+/// The lowest point of a rim may be one of the four points that are watched on it. The two are one
+/// contact, that of the rim: it is as low or lower wherever it rolls, so nothing is sought of the
+/// point in the arc from here.
+void leave_points_to_rim(int rim_contact, const FirstOf& first, Node& node) {
+  constexpr double same_point = 1e-3;  // of the radius: rows of points so near are equal
+  const Contact rim = node.contacts[rim_contact];
+  const Pair& pair = node.pool[rim.slot];
+  const auto is_on_rim = [&](int slot) {
+    const Pair& other = node.pool[slot];
+    const auto* corner = std::get_if<Corner>(&other.kind);
+    return corner != nullptr && other.a == pair.a &&
+           corner->out.dot(std::get<Rim>(pair.kind).out) > 0;
+  };
+  const double apart = same_point * std::get<Cylinder>(pair.on_a.shape).radius;
+  for (std::size_t i = first.silent; i < node.silent.size(); ++i) {
+    const int slot = node.silent[i];
+    if (!is_on_rim(slot) || node.sunk[slot] > rim.phi + 2 * pair.touch) continue;
+    node.sunk[slot] = -std::numeric_limits<double>::infinity();
+  }
+  for (int i = node.touching - 1; i >= first.contact; --i) {
+    const Contact& c = node.contacts[i];
+    if (!is_on_rim(c.slot) || (c.point_W - rim.point_W).norm() > apart) continue;
+    node.sunk[c.slot] = -std::numeric_limits<double>::infinity();
+    node.silent.push_back(c.slot);
+    remove_contact(i, node);
+  }
+}
+
+/// Parts of two solids with the same witness are one contact.
+void merge_witnesses(const FirstOf& first, Node& node) {
+  for (int i = node.touching - 1; i >= first.contact; --i) {
+    const int slot = node.contacts[i].slot;
+    if (!std::holds_alternative<Rim>(node.pool[slot].kind)) continue;
+    leave_points_to_rim(i, first, node);
+    i = node.contact_of[slot];
+  }
+}
+
 /// The lists by slot grow with the pool.
 void fit(Node& node) {
   const auto slots = static_cast<std::size_t>(node.pool.size());
@@ -153,8 +205,8 @@ bool find_contacts(const Scene& scene, Node& node) {
   if (!model.has_gaps()) return true;
   node.dq = scene.options.simultaneous * scene.options.h * node.v;
   if (!model.pairs.empty()) {
-    find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq, scene.most_touch,
-                    node.broad);
+    find_candidates(model.tree, model.shapes, model.pairs, node.kin, node.dq,
+                    most_touch(scene, node), node.broad);
   }
   reset_contacts(node);
   const bool is_at_a_stop = is_near_a_stop(scene, node);
@@ -166,16 +218,20 @@ bool find_contacts(const Scene& scene, Node& node) {
   }
   const Pair* solid = nullptr;
   bool is_near = true;
+  FirstOf first;
   for (const int number : node.broad.candidates) {
-    const int slot = node.pool.slot_of(model, number);
+    const int slot = slot_at(scene, number, node);
     fit(node);
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
+      merge_witnesses(first, node);
       solid = node.pool.solid(slot);
       is_near = solid == nullptr || pair_gap(model.tree, node.kin, *solid).phi <=
                                         solid->touch + nearly(scene.options, speed);
+      first = {node.touching, node.silent.size()};
     }
     if (is_near) add_if_touching(scene, speed, slot, node);
   }
+  merge_witnesses(first, node);
   return true;
 }
 

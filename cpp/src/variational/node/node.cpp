@@ -42,6 +42,22 @@ void add_dry_joints(const Scene& scene, Node& node) {
   }
 }
 
+int slot_at(const Scene& scene, int number, const Node& node) {
+  const int slot = node.pool.slot_of(scene.model, number);
+  double coordinate = 0;
+  for (const int joint : {node.pool[slot].on_a.joint, node.pool[slot].on_b.joint}) {
+    if (joint < 0) continue;
+    coordinate =
+        std::max(coordinate, node.kin.X_WJ(scene.model.tree, joint).p.cwiseAbs().maxCoeff());
+  }
+  node.pool.know_ulps(slot, coordinate);
+  return slot;
+}
+
+double most_touch(const Scene& scene, const Node& node) {
+  return std::max(scene.most_touch, ulps_of(scene.reach + node.q.cwiseAbs().maxCoeff()));
+}
+
 bool set_velocity_at_node(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
   mass_pass(model.packed, node.w);

@@ -91,6 +91,12 @@ void write_contact(const Scene& scene, double speed, int slot, const Pair& as, c
 /// M and v = M^-1 p at the node. @return false where the mass matrix is singular
 bool set_velocity_at_node(const Scene& scene, Node& node);
 
+/// The slot of a pair, whose touch knows where its bodies are.
+int slot_at(const Scene& scene, int number, const Node& node);
+
+/// [m] No pair's touch is larger at the node.
+double most_touch(const Scene& scene, const Node& node);
+
 /// Frames at q.
 void place_frames(const Scene& scene, Node& node);
 

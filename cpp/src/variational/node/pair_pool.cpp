@@ -29,6 +29,7 @@ void PairPool::add_limits(const ModelData& model) {
   for (int k = 0; k < limits_; ++k) {
     const JointLimit& limit = model.limits[static_cast<std::size_t>(k)];
     pair_.push_back(make_stop(model.tree, limit.joint, limit.stop));
+    touch_.push_back(pair_.back().touch);
     number_.push_back(model.first_limit + k);
     solid_of_.push_back(-1);
   }
@@ -41,6 +42,7 @@ void PairPool::add(const ModelData& model, int number) {
   if (parts && (pair_.empty() || !are_same_shapes(pair_.back(), pair))) {
     solid_.push_back(make_solid_pair(model.tree, model.shapes, key.a, key.b));
   }
+  touch_.push_back(pair.touch);
   pair_.push_back(std::move(pair));
   number_.push_back(number);
   solid_of_.push_back(parts ? static_cast<int>(solid_.size()) - 1 : -1);
@@ -71,6 +73,12 @@ void PairPool::grow_table() {
   }
 }
 
+void PairPool::know_ulps(int slot, double coordinate) {
+  const double touch = std::max(touch_[slot], ulps_of(coordinate));
+  pair_[slot].touch = touch;
+  if (solid_of_[slot] >= 0) solid_[solid_of_[slot]].touch = touch;
+}
+
 bool PairPool::is_full() const { return !all_ && size() > many; }
 
 void PairPool::clear() {
@@ -80,6 +88,7 @@ void PairPool::clear() {
   number_.resize(kept);
   solid_.clear();
   solid_of_.resize(kept);
+  touch_.resize(kept);
   table_.assign(first_entries, {0, -1});
 }
 

@@ -6,11 +6,17 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "saltus/model/model.hpp"
 
 namespace saltus {
+
+/// [m] What rounding makes of a gap between bodies with such coordinates: some ulp.
+inline double ulps_of(double coordinate) {
+  return 8 * std::numeric_limits<double>::epsilon() * coordinate;
+}
 
 class PairPool {
  public:
@@ -23,6 +29,10 @@ class PairPool {
   int size() const { return static_cast<int>(number_.size()); }
   const Pair& operator[](int slot) const { return pair_[slot]; }
   int number(int slot) const { return number_[slot]; }  ///< in model.pairs
+  /// Far from the origin the rounding of coordinates is more than what touches near it: a pair's
+  /// touch is some ulp of them at least.
+  /// @param coordinate [m] the largest of the pair's two bodies where they are now
+  void know_ulps(int slot, double coordinate);
   /// Of a pair of parts the two shapes as wholes, which say in one gap that no part is near; the
   /// same for all parts. None where the pair is of wholes.
   const Pair* solid(int slot) const {
@@ -49,6 +59,7 @@ class PairPool {
   std::deque<Pair> pair_, solid_;  ///< at addresses that stay
   std::vector<int> number_;        ///< (slots)
   std::vector<int> solid_of_;      ///< (slots) index in solid_, or -1
+  std::vector<double> touch_;      ///< (slots) [m] near the origin
   /// Open addressing: the entry of a number is near its hash, slot -1 marks a free one. A power
   /// of two of entries, half of them free at least. Unused where all are made.
   std::vector<Entry> table_;

@@ -17,7 +17,8 @@ struct Scene {
   TreeCoordinates trees;
   bool has_friction = false;  ///< some pair of materials has
   double total_mass = 0;      ///< [kg]
-  double most_touch = 0;      ///< [m] no pair's epsilon_phi is larger
+  double most_touch = 0;      ///< [m] no pair's epsilon_phi is larger, near the origin
+  double reach = 0;           ///< [m] sum of all fixed placements
 
   /// ArcProblem::whole of these options.
   double whole_step() const {

@@ -12,6 +12,7 @@ namespace {
 constexpr int most_arcs_idle = 100, few_arcs_idle = 20;
 
 constexpr double sunk_touches = 100;     ///< touches (1e-10 of the shapes' size) that are sinking
+constexpr double least_visible = 1e4;    ///< that are moved apart where no shorter arc helps
 constexpr double visible_touches = 1e8;  ///< a hundredth of the shapes' size
 
 }  // namespace
@@ -51,7 +52,7 @@ void Stepper::Impl::check_energy() {
   const double most = halves_left() ? 0.02 : 0.3;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double h = scene.options.h;
-  const double slow = h * scene.model.mass.gravity.norm() + scene.most_touch / h;
+  const double slow = h * scene.model.mass.gravity.norm() + most_touch(scene, node) / h;
   const double least = 0.5 * scene.total_mass * slow * slow;
   const double gain = node_energy(scene, node) - energy - done;
   if (gain > most * std::max({kinetic, 0.5 * node.p.dot(node.v), least, done_size})) {
@@ -77,11 +78,14 @@ void Stepper::Impl::check_free_energy() {
 /// No arc ends with bodies deeper in each other than it started. Where parts come to face each
 /// other that overlap already no shorter arc helps: that is an error where anybody can see it.
 void Stepper::Impl::check_gaps() {
-  const double most = halves_left() ? sunk_touches : visible_touches;
+  const double most = is_last_attempt ? least_visible
+                      : halves_left() ? sunk_touches
+                                      : visible_touches;
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.phi < deepest - most * pool[c.slot].touch) fail_sinking(c);
   }
+  lift_out();
 }
 
 /// Gaps that graze 0 may stop arc after arc where none closes.

@@ -23,7 +23,8 @@ struct Stepper::Impl {
         meter(scene.model),
         end(scene, pool),
         unlocated(scene) {
-    last.q.setZero(scene.model.tree.n_q);
+    for (VecX* each : {&last.q, &q_sunk}) each->setZero(scene.model.tree.n_q);
+    for (VecX* each : {&lift, &p_sunk}) each->setZero(scene.model.tree.n_v);
     last.p.setZero(scene.model.tree.n_v);
     report.work.setZero(scene.model.forces.n_u() + 3);
     report.impacts.reserve(64);
@@ -56,6 +57,8 @@ struct Stepper::Impl {
   void check_free_energy();
   void check_gaps();
   void check_idle_arcs();
+  void lift_out();  // lift.cpp
+  bool place_with_contacts(const VecX& q, const VecX& p);
 
   [[noreturn]] void fail(FlightOutcome outcome);
   [[noreturn]] void raise(const std::string& why, const std::string& advice, int count);
@@ -81,9 +84,10 @@ struct Stepper::Impl {
   HalfKick kick;
   ImpactScratch impact;
   EnergyMeter meter;
-  Node end;             // of an arc by time stepping
-  Unlocated unlocated;  // likewise
-  ForceInput input;     // of the step
+  Node end;                   // of an arc by time stepping
+  Unlocated unlocated;        // likewise
+  VecX q_sunk, p_sunk, lift;  // by lift_out
+  ForceInput input;           // of the step
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
