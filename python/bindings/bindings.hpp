@@ -33,12 +33,12 @@ void bind_model(py::module_& m);
 void bind_configurations(py::class_<Model>& c);  ///< called by bind_model
 void bind_links(py::module_& m);                 ///< called by bind_model
 void bind_dynamics(py::module_& m);
-void bind_visuals(py::module_& m);               ///< called by bind_model
+void bind_visuals(py::module_& m);  ///< called by bind_model
 void bind_model_builder(py::module_& m);
-void bind_joint_effects(py::module_& m);              ///< called by bind_model
-void bind_model_forces(py::class_<Model>& c);         ///< likewise
-void bind_actuators(py::class_<ModelBuilder>& c);     ///< called by bind_model_builder
-void bind_joint_forces(py::class_<ModelBuilder>& c);  ///< likewise
+void bind_joint_effects(py::module_& m);                         ///< called by bind_model
+void bind_model_forces(py::class_<Model>& c);                    ///< likewise
+void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
+void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);

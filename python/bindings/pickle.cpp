@@ -82,11 +82,11 @@ void use_one_protocol(const py::module_& m) {
 py::tuple to_tuple(const ModelDescription& d) {
   const FilterSpec& f = d.filter;
   const MaterialSpec& m = d.materials;
-  return py::make_tuple(
-      d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
-      Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators),
-      Visuals::from(d.visuals));
+  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
+                        Joints::from(d.joints), Shapes::from(d.shapes),
+                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings,
+                        Actuators::from(d.actuators), Visuals::from(d.visuals));
 }
 
 ModelDescription to_description(const py::tuple& t) {

@@ -20,10 +20,14 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_composite.cpp
   lagrangian/test_newton_euler.cpp
   lagrangian/test_no_allocation.cpp
+  lagrangian/test_own_terms.cpp
   lagrangian/test_packed.cpp
   lagrangian/test_packed_matrix.cpp
   lagrangian/test_partials.cpp
   lagrangian/test_shadow.cpp
+)
+set(SALTUS_TEST_force
+  force/test_force_model.cpp
 )
 set(SALTUS_TEST_collision
   collision/test_broad_phase.cpp
@@ -74,6 +78,7 @@ set(SALTUS_TEST_variational
   variational/test_contact_space.cpp
   variational/test_cradle.cpp
   variational/test_discrete_energy.cpp
+  variational/test_driven.cpp
   variational/test_forget.cpp
   variational/test_friction.cpp
   variational/test_friction_boxes.cpp

@@ -18,8 +18,8 @@ GROUND = {"error", "export"}
 FLOORS: dict[str, set[str]] = {"error": {"export"}, "export": set()}
 FLOORS["spatial"] = set(GROUND)
 FLOORS["tree"] = GROUND | {"spatial"}
-FLOORS["lagrangian"] = FLOORS["collision"] = GROUND | {"spatial", "tree"}  # neighbours
-FLOORS["model"] = FLOORS["tree"] | {"tree", "lagrangian", "collision"}
+FLOORS["lagrangian"] = FLOORS["collision"] = FLOORS["force"] = GROUND | {"spatial", "tree"}
+FLOORS["model"] = FLOORS["tree"] | {"tree", "lagrangian", "collision", "force"}
 FLOORS["variational"] = FLOORS["model"] | {"model"}
 FLOORS["rollout"] = FLOORS["variational"] | {"variational"}
 FLOORS["urdf"] = FLOORS["model"] | {"model"}

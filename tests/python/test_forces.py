@@ -1,4 +1,4 @@
-"""Motors, servos, damping, springs and applied forces, against reference values and closed forms."""
+"""Motors, servos, damping, springs and forces, against reference values and closed forms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import saltus
-from saltus import BodyInertia, JointType, ModelBuilder, ModelError, Pose
+from saltus import BodyInertia, JointType, ModelBuilder, Pose
 
 GOLDEN = json.loads((Path(__file__).parents[1] / "data" / "forces.json").read_text())
 H = 0.01
@@ -96,9 +96,7 @@ def test_an_array_of_controls_is_told_row_by_row() -> None:
     run = saltus.simulate(model, duration=5 * H, h=H, control=rows)
     np.testing.assert_array_equal(run.control[:, 0], [1, 2, 3, 3, 3, 3])
     asked = iter(rows)
-    same = saltus.simulate(
-        model, duration=5 * H, h=H, control=lambda now: next(asked, None)
-    )
+    same = saltus.simulate(model, duration=5 * H, h=H, control=lambda now: next(asked, None))
     np.testing.assert_array_equal(run.q, same.q)
 
 
@@ -251,13 +249,15 @@ def test_a_force_in_the_axes_of_the_body_turns_with_it() -> None:
     np.testing.assert_allclose(run.p[-1, :3], [2, 0, 0], atol=1e-12)  # z of the body is x
 
 
-@pytest.mark.parametrize("halvings", [0])
-def test_forced_motion_is_of_second_order(halvings: int) -> None:
-    model = servo_arm()
+def test_forced_motion_is_of_second_order() -> None:
+    builder = arm()  # soft servos: the order shows where h is small against their time constants
+    builder.add_position_servo("shoulder", joint="shoulder", kp=30, kd=4)
+    builder.add_position_servo("elbow", joint="elbow", kp=12, kd=1)
+    model = builder.build()
     ends = []
-    for h in (0.01, 0.005, 0.0025):
+    for h in (0.005, 0.0025, 0.00125):
         run = saltus.simulate(
-            model, q=[0.2, -0.1], duration=0.2, h=h, control={"shoulder": 0.3, "elbow": 0.1}
+            model, q=[0.2, -0.1], duration=0.5, h=h, control={"shoulder": 0.3, "elbow": 0.1}
         )
         ends.append(run.q[-1])
     ratio = np.linalg.norm(ends[0] - ends[1]) / np.linalg.norm(ends[1] - ends[2])
@@ -293,84 +293,3 @@ def test_the_energy_of_a_ball_jointed_chain_balances() -> None:
     )
     assert run.work["damping"][-1] < -0.01
     assert run.energy_error < 2e-3  # O(h^2) of the midpoint rule
-
-
-def test_a_run_with_controls_is_saved_and_loaded(tmp_path: Path) -> None:
-    model = servo_arm()
-    run = saltus.simulate(model, duration=0.1, h=H, control={"shoulder": 0.2})
-    run.save(tmp_path / "run.h5")
-    again = saltus.load(tmp_path / "run.h5", model=model)
-    np.testing.assert_array_equal(run.control, again.control)
-    assert again.work.keys() == run.work.keys()
-    np.testing.assert_array_equal(run.work["elbow"], again.work["elbow"])
-
-
-def test_batches_take_controls_of_each_run() -> None:
-    model = servo_arm()
-    control = np.array([[0.1, 0.2], [0.3, -0.4]])
-    batch = saltus.simulate_batch(
-        model, q=np.zeros((2, 2)), duration=0.1, h=H, control=control, progress=False
-    )
-    for k in range(2):
-        run = saltus.simulate(model, duration=0.1, h=H, control=control[k])
-        np.testing.assert_array_equal(batch[k].q, run.q)
-        np.testing.assert_array_equal(batch[k].control, run.control)
-
-
-def test_a_model_with_motors_has_a_pickle() -> None:
-    import pickle
-
-    model = servo_arm()
-    again = pickle.loads(pickle.dumps(model))
-    assert again.control_names == ["shoulder", "elbow"]
-    run = saltus.simulate(model, duration=0.1, h=H, control=[0.1, 0.2])
-    same = saltus.simulate(again, duration=0.1, h=H, control=[0.1, 0.2])
-    np.testing.assert_array_equal(run.q, same.q)
-
-
-@pytest.mark.parametrize(
-    ("control", "message"),
-    [
-        ({"sholder": 1.0}, 'no actuator "sholder"; there are shoulder, elbow'),
-        ({"elbow": "much"}, 'control\\["elbow"\\] = \'much\' is no number'),
-        ({"elbow": math.nan}, 'control\\["elbow"\\] = nan is not finite'),
-        ([1.0], "one number for each of the 2 actuators"),
-        ("x", "it is a mapping of actuators' names"),
-    ],
-)
-def test_controls_that_are_none_are_named(control: object, message: str) -> None:
-    with pytest.raises(ModelError, match=message):
-        saltus.simulate(servo_arm(), duration=0.1, h=H, control=control)  # type: ignore[arg-type]
-
-
-def test_forces_that_are_none_are_named() -> None:
-    model = servo_arm()
-    stepper = saltus.Stepper(model)
-    state = model.state()
-    with pytest.raises(ModelError, match="no link"):
-        stepper.advance(state, forces={"hand": saltus.Wrench((1, 0, 0))})
-    with pytest.raises(ModelError, match="fixed to the world"):
-        stepper.advance(state, forces={"world": saltus.Wrench((1, 0, 0))})
-    with pytest.raises(ModelError, match="frame"):
-        saltus.Wrench((1, 0, 0), frame="link")
-    with pytest.raises(ModelError, match="qfrc"):
-        stepper.advance(state, qfrc=[1.0])
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda b: b.add_motor("m", joint="elbw"), 'no joint "elbw"; joints are shoulder, elbow'),
-        (lambda b: b.add_motor("m", joint="elbow", effort=-1), "effort -1; it is positive"),
-        (
-            lambda b: b.add_motor("m", joint="elbow").add_motor("m", joint="elbow"),
-            'two actuators are named "m"',
-        ),
-        (lambda b: b.set_damping("elbow", -1.0), "damping -1; it is finite and at least 0"),
-        (lambda b: b.set_limit("elbow", 1.0, -1.0), "lower limit 1 and upper limit -1"),
-        (lambda b: b.set_limit("elbow", -1.0, 1.0, restitution=2), "restitution 2"),
-    ],
-)
-def test_builders_refuse_what_no_joint_can_have(make, message: str) -> None:
-    with pytest.raises(ModelError, match=message):
-        make(arm())

@@ -27,7 +27,16 @@ ROOMS["trajectory"] = {"runs"}
 
 # The modules of a folder. Each may import those before it, and the folder's __init__ all of them.
 ORDER = {
-    "records": ["tables", "models", "impacts", "recording", "files"],
+    "records": [
+        "tables",
+        "models",
+        "impacts",
+        "recording",
+        "replace",
+        "stored",
+        "urdf_options",
+        "files",
+    ],
     "plots": ["figure", "cradle", "run", "impacts", "pairs"],
     "view": [
         "arrays",
@@ -44,7 +53,7 @@ ORDER = {
         "pull",
         "live",
     ],
-    "runs": ["trajectory", "batch_trajectory", "starts", "progress", "simulate", "batch"],
+    "runs": ["trajectory", "batch_trajectory", "starts", "progress", "moment", "simulate", "batch"],
     "cli": ["commands", "looking", "main"],
 }
 

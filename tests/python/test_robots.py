@@ -63,6 +63,7 @@ ROBOTS = {
 def load_anew(name: str, **options) -> saltus.Model:
     robot, kinds = ROBOTS[name], saltus.JointType
     folder = robots_folder()
+    options.setdefault("effects", "none")  # as Pinocchio: limits and damping are information
     return saltus.load_urdf(
         folder / robot.path,
         package_dirs=[folder, folder.parent],

@@ -40,7 +40,7 @@ Trajectory from_states(const Model& model, const VecRef& t, const Eigen::Ref<con
   Trajectory run = empty_trajectory(model, t.size());
   run.options.h = h;
   run.t = t;
-  RunRows rows{run.q, run.v, run.p, run.kinetic, run.potential, run.shadow};
+  RunRows rows{run.q, run.v, run.p, run.control, run.work, run.kinetic, run.potential, run.shadow};
   EnergyMeter meter(*model);
   for (Eigen::Index row = 0; row < t.size(); ++row) {
     const std::string of_row = "row " + std::to_string(row) + " of ";

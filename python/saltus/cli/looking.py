@@ -9,7 +9,7 @@ import numpy as np
 
 import saltus
 from saltus.cli.commands import INTERRUPTED, load
-from saltus.records.files import check_folder
+from saltus.records.replace import check_folder
 from saltus.view import serve
 
 STEP, LIVE_STEP = 0.01, 1 / 120  # s; live two steps are a frame

@@ -68,9 +68,7 @@ def to_controls(
     if isinstance(control, Mapping):
         unknown = [name for name in control if name not in names]
         if unknown:
-            raise ModelError(
-                f'no actuator "{unknown[0]}"; there are {", ".join(names) or "none"}'
-            )
+            raise ModelError(f'no actuator "{unknown[0]}"; there are {", ".join(names) or "none"}')
         control = [control.get(name, 0.0) for name in names]
     array = _numbers("control", control)
     if not 1 <= array.ndim <= 3 or array.shape[-1] != len(names):

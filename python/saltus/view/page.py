@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from saltus.records.files import check_folder
+from saltus.records.replace import check_folder
 from saltus.view.arrays import deflated
 
 BUNDLE = Path(__file__).parent / "page" / "bundle.js"

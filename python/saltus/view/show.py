@@ -6,8 +6,8 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from saltus.records.files import check_folder
 from saltus.records.recording import Recording
+from saltus.records.replace import check_folder
 from saltus.view.page import in_frame, page_of, write_page
 from saltus.view.scene import scene_of_run
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from saltus._core import ModelError
-from saltus.records.files import check_folder
 from saltus.records.recording import Recording
+from saltus.records.replace import check_folder
 from saltus.view.browser import chromium_command, find_chromium
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.scene import scene_of_run

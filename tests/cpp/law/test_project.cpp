@@ -45,5 +45,25 @@ TEST(Project, ItsDerivativeIsThatOfDifferences) {
   }
 }
 
+/// Dry friction of a joint: an interval, whatever the other two numbers are.
+TEST(Project, AnIntervalCutsAndItsDerivativeIsThatOfDifferences) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Vec3 a = random_point(random);
+    const double bound = 0.1 + trial % 5 * 0.3, step = 1e-6;
+    Mat3 D;
+    const Vec3 p = to_set(a, 0, bound, &D);
+    EXPECT_LE(std::abs(p[0]), bound);
+    EXPECT_TRUE(p.tail<2>().isZero(0));
+    EXPECT_EQ(to_set(p, 0, bound), p);
+    if (std::abs(std::abs(a[0]) - bound) < 1e-3) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 d = step * Vec3::Unit(k);
+      const Vec3 slope = (to_set(a + d, 0, bound) - to_set(a - d, 0, bound)) / (2 * step);
+      EXPECT_LE((slope - D.col(k)).norm(), 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace saltus

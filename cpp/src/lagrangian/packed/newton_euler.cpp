@@ -2,6 +2,7 @@
 
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
+#include "lagrangian/packed/own_terms.hpp"
 
 namespace saltus {
 namespace packed {
@@ -82,6 +83,7 @@ void newton_euler(const PackedTree& t, const Packed& w, PackedForces& out) {
   packed::set_frames_accelerations(t, w, out);
   packed::sum_wrenches(t, w, out);
   packed::set_torques(t, w, out);
+  packed::add_own_torques(t, w, out);
 }
 
 void gravity_pass(const PackedTree& t, const Packed& w, PackedForces& out) {

@@ -73,6 +73,12 @@ void add_own_products(const PackedTree& t, const Packed& w, PackedProducts& out)
   }
 }
 
+void add_own_torques(const PackedTree& t, const Packed& w, PackedForces& out) {
+  for_each_own(t, [&](int slot, double armature, double stiffness, double rest) {
+    *at(out.tau, slot) += armature * *at(out.s_ddot, slot) + stiffness * (*at(w.s, slot) - rest);
+  });
+}
+
 void add_own_shadow(const PackedTree& t, const Packed& w, ShadowTerm& out) {
   for_each_own(t, [&](int slot, double armature, double stiffness, double) {
     const double v = *at(w.s_dot, slot), a = *at(out.s_ddot, slot);

@@ -1,6 +1,7 @@
 // What a coordinate has of its own (own_terms.cpp), for the passes.
 #pragma once
 
+#include "saltus/lagrangian/newton_euler.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/lagrangian/shadow.hpp"
 
@@ -14,6 +15,8 @@ void add_own_scale(const PackedTree& t, double tau, Packed& w);
 double own_energy(const PackedTree& t, const Packed& w);
 /// To L_qq v.
 void add_own_products(const PackedTree& t, const Packed& w, PackedProducts& out);
+/// To the torques of newton_euler.
+void add_own_torques(const PackedTree& t, const Packed& w, PackedForces& out);
 /// To kappa and its gradient.
 void add_own_shadow(const PackedTree& t, const Packed& w, ShadowTerm& out);
 
