@@ -16,6 +16,7 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   again.set_gravity(d.gravity).set_solver(d.solver).set_source(d.source);
   for (std::size_t i = 1; i < d.links.size(); ++i) again.add_link(d.links[i]);
   for (const JointSpec& joint : d.joints) again.add_joint(joint);
+  for (const ActuatorSpec& actuator : d.actuators) again.add_actuator(actuator);
   for (const Visual& visual : d.visuals) again.add_visual(visual);
   for (ShapeSpec shape : d.shapes) {
     check_shape(shape.shape, shape.link);

@@ -143,6 +143,12 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
     if (c.bound > 0) continue;
     kick.impulses.push_back(acted(node, c, kick.p[i][0], across(c, kick.p[i])));
   }
+  kick.sticking.assign(scene.trees.of.size(), 0);
+  for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
+    const Contact& c = *kick.contacts[i];
+    if (c.bound > 0) note_sticking(c, kick.p[i][0], c.bound, kick.sticking);
+  }
+  for (VecX* each : {&node.p, &node.v}) still_trees(scene, kick.sticking, *each);
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
     const Contact& c = *kick.contacts[i];
     if (!(c.bound > 0)) continue;

@@ -35,6 +35,7 @@ struct HalfKick {
   ContactBlocks W;
   std::vector<Vec3> u, p;
   std::vector<double> dry_rate;  ///< (contacts) of joints, before
+  std::vector<int> sticking;     ///< (trees) joints that dry friction holds
   std::vector<Vec3> push;  ///< (1, friction) of a normal impulse of 1 where it slid; else zero
   VecX p_before, v_before;
   PileScratch pile;

@@ -1,6 +1,7 @@
 #include "variational/arc/rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "saltus/collision/slip.hpp"
 #include "variational/arc/memory.hpp"
@@ -253,6 +254,18 @@ bool hold_rims_at_points(const Scene& scene, const VecX& q_end, const Node& node
     changed = true;
   }
   return changed;
+}
+
+void note_sticking(const Contact& joint, double p, double bound, std::vector<int>& sticking) {
+  if (std::abs(p) < bound) ++sticking[static_cast<std::size_t>(joint.n.part[0].tree)];
+}
+
+void still_trees(const Scene& scene, const std::vector<int>& sticking, VecX& x) {
+  for (std::size_t tree = 0; tree < sticking.size(); ++tree) {
+    const std::vector<int>& coordinates = scene.trees.of[tree];
+    if (sticking[tree] == 0 || sticking[tree] != static_cast<int>(coordinates.size())) continue;
+    for (const int c : coordinates) x[c] = 0;
+  }
 }
 
 void scale_impulses(double tau, Rows& rows) {

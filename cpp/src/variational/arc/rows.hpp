@@ -73,6 +73,7 @@ struct Rows {
   ContactBlocks W;  ///< of the active rows
   std::vector<Vec3> u, p, before;
   PileScratch pile;
+  std::vector<int> sticking;  ///< (trees) joints that stick
   VecX momentum;  ///< (n_v) the node's with all impulses, written by set_row_rates
   VecX size;      ///< (n_v) of all that is summed up in it, likewise
 };
@@ -84,6 +85,13 @@ inline Row& active_row(Rows& rows, std::size_t k) { return rows.row[rows.active[
 inline const Contact& contact_of(const Node& node, const Row& row) {
   return row.is_joint() ? node.dry[-1 - row.contact] : node.contacts[row.contact];
 }
+
+/// Counts a joint with dry friction as sticking in its tree, where its impulse is below its bound.
+void note_sticking(const Contact& joint, double p, double bound, std::vector<int>& sticking);
+
+/// A tree whose joints all stick stands still: its entries of x are 0, not rounding that would add
+/// up to creep. @param sticking (trees) joints that do, see note_sticking
+void still_trees(const Scene& scene, const std::vector<int>& sticking, VecX& x);
 
 /// How many contacts push.
 int count_pressed(const Rows& rows);

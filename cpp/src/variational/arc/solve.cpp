@@ -52,6 +52,18 @@ void add_change(ArcWork& work) {
   }
 }
 
+void stand_still(const Scene& scene, const Node& node, ArcWork& work) {
+  Rows& rows = work.rows;
+  rows.sticking.assign(scene.trees.of.size(), 0);
+  for (std::size_t k = 0; k < rows.active.size(); ++k) {
+    const Row& row = active_row(rows, k);
+    if (!row.is_joint()) continue;
+    note_sticking(contact_of(node, row), rows.p[k][0], rows.W.bound_of(static_cast<int>(k)),
+                  rows.sticking);
+  }
+  still_trees(scene, rows.sticking, work.arc.v);
+}
+
 bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   Rows& rows = work.rows;
   Arc& arc = work.arc;
@@ -81,6 +93,7 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     settle_for_sure(rows.W, rows.pile, rows.u, rows.p, 1e-4);  // the next round finds the rest
     add_change(work);
   }
+  if (!node.dry.empty()) stand_still(scene, node, work);
   finish_arc(scene.model, arc_problem(scene, tau, node, work), arc, work.scratch);
   give_impulses(rows);
   return true;

@@ -27,7 +27,8 @@ struct PileResidual {
     const double off = (to_set(p - u, friction, bound) - p).cwiseAbs().maxCoeff();
     worst = std::max(worst, off);
     excess = std::max(excess, off - rest);
-    size = std::max({size, p.cwiseAbs().maxCoeff(), u.cwiseAbs().maxCoeff()});
+    // what friction may push is a size, too: a joint at rest has no other
+    size = std::max({size, p.cwiseAbs().maxCoeff(), u.cwiseAbs().maxCoeff(), bound});
   }
   Lawlessness part() const {
     return size > 0 ? Lawlessness{worst / size, excess / size} : Lawlessness{};
