@@ -146,7 +146,9 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
   kick.sticking.assign(scene.trees.of.size(), 0);
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
     const Contact& c = *kick.contacts[i];
-    if (c.bound > 0) note_sticking(c, kick.p[i][0], c.bound, kick.sticking);
+    if (!(c.bound > 0)) continue;
+    const double u = dot(scene.trees, c.n, node.v);
+    note_sticking(c, kick.p[i][0], c.bound, u, kick.W.own[i](0, 0), kick.sticking);
   }
   for (VecX* each : {&node.p, &node.v}) still_trees(scene, kick.sticking, *each);
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {

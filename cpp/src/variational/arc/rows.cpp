@@ -256,8 +256,11 @@ bool hold_rims_at_points(const Scene& scene, const VecX& q_end, const Node& node
   return changed;
 }
 
-void note_sticking(const Contact& joint, double p, double bound, std::vector<int>& sticking) {
-  if (std::abs(p) < bound) ++sticking[static_cast<std::size_t>(joint.n.part[0].tree)];
+void note_sticking(const Contact& joint, double p, double bound, double u, double W,
+                   std::vector<int>& sticking) {
+  constexpr double near_bound = 1 - 1e-9, rounding = 1e-6;
+  if (!(std::abs(p) < near_bound * bound) || !(std::abs(u) <= rounding * W * bound)) return;
+  ++sticking[static_cast<std::size_t>(joint.n.part[0].tree)];
 }
 
 void still_trees(const Scene& scene, const std::vector<int>& sticking, VecX& x) {

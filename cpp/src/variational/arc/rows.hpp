@@ -86,8 +86,10 @@ inline const Contact& contact_of(const Node& node, const Row& row) {
   return row.is_joint() ? node.dry[-1 - row.contact] : node.contacts[row.contact];
 }
 
-/// Counts a joint with dry friction as sticking in its tree, where its impulse is below its bound.
-void note_sticking(const Contact& joint, double p, double bound, std::vector<int>& sticking);
+/// Counts a joint with dry friction as sticking in its tree, where its impulse is below its bound
+/// and its rate u is rounding: far below what the bound changes, by W.
+void note_sticking(const Contact& joint, double p, double bound, double u, double W,
+                   std::vector<int>& sticking);
 
 /// A tree whose joints all stick stands still: its entries of x are 0, not rounding that would add
 /// up to creep. @param sticking (trees) joints that do, see note_sticking

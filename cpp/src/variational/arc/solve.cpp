@@ -59,7 +59,7 @@ void stand_still(const Scene& scene, const Node& node, ArcWork& work) {
     const Row& row = active_row(rows, k);
     if (!row.is_joint()) continue;
     note_sticking(contact_of(node, row), rows.p[k][0], rows.W.bound_of(static_cast<int>(k)),
-                  rows.sticking);
+                  rows.u[k][0], rows.W.own[k](0, 0), rows.sticking);
   }
   still_trees(scene, rows.sticking, work.arc.v);
 }
