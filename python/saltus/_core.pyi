@@ -15,6 +15,8 @@ __all__: list[str] = [
     "BatchTrajectory",
     "BodyInertia",
     "Box",
+    "BuilderJoint",
+    "BuilderLink",
     "Capsule",
     "ContactImpulse",
     "ContactProperties",
@@ -23,6 +25,7 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "Frames",
     "FrictionOutcome",
     "Gap",
     "Gaps",
@@ -38,6 +41,7 @@ __all__: list[str] = [
     "InertiaCheck",
     "InertiaUse",
     "JammedError",
+    "JointEffects",
     "JointInfo",
     "JointType",
     "LagrangianPartials",
@@ -62,6 +66,7 @@ __all__: list[str] = [
     "TreeSolver",
     "TriangleMesh",
     "Visual",
+    "Wrench",
     "classify_impact",
     "energies",
     "gap",
@@ -522,6 +527,11 @@ class PlacedShape:
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
+    def X_LG(self) -> Pose:
+        """
+        Pose of its frame in its link's
+        """
+    @property
     def link(self) -> int:
         """
         index of its link in the model's `links`
@@ -598,6 +608,72 @@ class ContactProperties:
     @property
     def restitution(self) -> float: ...
 
+class JointEffects(enum.Flag):
+    """
+    What of a joint acts in steps; what does not is kept as information.
+
+    limits
+        A stop at each end of the range, without rebound unless its restitution says otherwise.
+    damping
+        Viscous damping, with armature and spring.
+    friction
+        Dry friction.
+    motors
+        Actuators on the joint, and the effort that they are limited to.
+    all, none
+        Members combine: `JointEffects.limits | JointEffects.damping`.
+    """
+
+    all = ...
+    damping = ...
+    friction = ...
+    limits = ...
+    motors = ...
+    none = ...
+
+class Wrench:
+    """
+    A force and a torque on a link, held over a step.
+
+    Parameters
+    ----------
+    force, torque : array_like, shape (3,)
+        [N], [N m]
+    point : array_like, shape (3,)
+        [m] where the force acts, in the link's frame.
+    frame : {"world", "body"}
+        Whose axes force and torque are in; those of the body turn with it.
+    """
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        torque: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        *,
+        point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        frame: str = "world",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def force(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [N]
+        """
+    @property
+    def frame(self) -> str: ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] in the link's frame
+        """
+    @property
+    def torque(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [N m]
+        """
+
 class State:
     """
     The state of a model: a value. Keep it, compare it, go back to it.
@@ -662,20 +738,6 @@ class JointType(enum.Enum):
     revolute = ...
     spherical = ...
 
-class Link:
-    """
-    A rigid link of a model.
-    """
-    def __reduce__(self) -> tuple: ...
-    def __repr__(self) -> str: ...
-    @property
-    def mass(self) -> float:
-        """
-        [kg] its own, without links that are fixed to it
-        """
-    @property
-    def name(self) -> str: ...
-
 class Coordinate:
     """
     A number of q and what the model's file says of it.
@@ -730,12 +792,84 @@ class Coordinate:
         [rad/s | m/s] limit, inf where none
         """
 
-class JointInfo:
+class Mimic:
     """
-    A joint of a model, as its author named it.
+    This joint's displacement is `multiplier * (displacement of joint) + offset`.
+
+    Parameters
+    ----------
+    joint : str
+        Name of the joint to follow; both have one coordinate.
+    multiplier : float
+    offset : float
+        [rad | m]
     """
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        joint: str,
+        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def joint(self) -> str: ...
+    @property
+    def multiplier(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """
+        [rad | m]
+        """
+
+class Link:
+    """
+    A rigid link of a model.
+
+    It stands for its index wherever one is taken.
+    """
+    def __index__(self) -> int: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def index(self) -> int:
+        """
+        in the model's `links`
+        """
+    @property
+    def inertia(self) -> BodyInertia:
+        """
+        BodyInertia: mass [kg], centre of mass c_J [m] and inertia I_J [kg m^2] about it, in the link's frame
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg] its own, without links that are fixed to it
+        """
+    @property
+    def name(self) -> str: ...
+
+class JointInfo:
+    """
+    A joint of a model, as its author described it.
+
+    It stands for its index in `joints` wherever one is taken.
+    """
+    def __index__(self) -> int: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def X_PJ(self) -> Pose:
+        """
+        Pose of the joint's frame (the child link's at displacement 0) in the parent's
+        """
+    @property
+    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"] | None:
+        """
+        unit, in the joint's frame, shape (3,); None without one
+        """
     @property
     def child(self) -> str:
         """
@@ -747,6 +881,21 @@ class JointInfo:
         indices in q of those that move it
         """
     @property
+    def index(self) -> int:
+        """
+        in the model's `joints`
+        """
+    @property
+    def lower(self) -> float:
+        """
+        [rad | m] limit, -inf where there is none
+        """
+    @property
+    def mimic(self) -> Mimic | None:
+        """
+        Mimic: which joint it follows; None for all others
+        """
+    @property
     def name(self) -> str: ...
     @property
     def parent(self) -> str:
@@ -754,7 +903,17 @@ class JointInfo:
         name of the parent link
         """
     @property
+    def pitch(self) -> float:
+        """
+        [m/rad] of a helical joint
+        """
+    @property
     def type(self) -> JointType: ...
+    @property
+    def upper(self) -> float:
+        """
+        [rad | m] limit, inf where there is none
+        """
     @property
     def velocities(self) -> list[int]:
         """
@@ -931,6 +1090,131 @@ class Model:
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
+    def __str__(self) -> str: ...
+    def _repr_html_(self) -> str: ...
+    def accelerations(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Accelerations: forward dynamics.
+
+        Solves M(q) a + c(q, v) = forces + gravity_forces(q), c the forces of motion alone. Contacts,
+        limits, dampers and motors do not act. O(n) for deep trees.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s] None: at rest.
+        forces : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values, optional
+            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [rad/s^2 | m/s^2] the rates of v.
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        StepError
+            Where the mass matrix is singular.
+        """
+    def all_poses(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of all links, one pass a row.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (links, 4, 4) or (rows, links, 4, 4)
+            Homogeneous matrices, in the order of `links`.
+        """
+    def all_shape_poses(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of all shapes, one pass a row.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (shapes, 4, 4) or (rows, shapes, 4, 4)
+            Homogeneous matrices, in the order of `shapes`.
+        """
+    def at(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None
+    ) -> Frames:
+        """
+        The kinematics at one configuration, once: poses, Jacobians, dynamics.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values, optional
+            [rad | m]; coordinates that are not named are as in `neutral`.
+
+        Returns
+        -------
+        Frames
+
+        Examples
+        --------
+        >>> import saltus
+        >>> model = saltus.load_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> frames = model.at({"swing_0": 0.3})
+        >>> frames.jacobian("ball_0").shape
+        (6, 3)
+        """
+    def builder(self) -> ModelBuilder:
+        """
+        A new builder that holds what this model was built of.
+
+        To change a mass, a limit, a material, or to add to it, and build another model.
+
+        Returns
+        -------
+        ModelBuilder
+        """
+    def centre_of_mass(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Centre of mass of all that moves, in the world.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (3,) or (rows, 3)
+            [m]
+
+        Raises
+        ------
+        ModelError
+            Also where nothing that moves has mass.
+        """
     def contact_properties(
         self, pair: typing.SupportsInt | typing.SupportsIndex
     ) -> ContactProperties:
@@ -984,6 +1268,24 @@ class Model:
         -------
         Gaps
         """
+    def gravity_forces(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        What gravity does to the coordinates, -dV/dq.
+
+        Holding the model still takes the opposite, `inverse_dynamics(q, None, None)`.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [N m | N]
+        """
     def integrate(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
@@ -1010,6 +1312,78 @@ class Model:
         ------
         ModelError
             As `state`.
+        """
+    def inverse_dynamics(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces that make given accelerations: inverse dynamics.
+
+        M(q) a + c(q, v) - gravity_forces(q), by the recursion of Newton and Euler, O(n). At rest and
+        without acceleration they are what holds the model up.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s] None: at rest.
+        a : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s^2 | m/s^2] the rates of v. None: none.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,) or (rows, n_v)
+            [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+
+        Raises
+        ------
+        ModelError
+            On an unknown name, a wrong shape, or a value that is not finite.
+        """
+    def jacobian(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        link: str | int | Link,
+        point: numpy.typing.ArrayLike | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Jacobian J of a link: J v is its velocity.
+
+        Rows are [angular; linear] in world axes: the angular velocity [rad/s] of the link and the velocity
+        [m/s] of its frame's origin. With a point there are three rows, the velocity of that point. Columns
+        are by velocity; of free and ball joints v is in the parent's axes, so that a free body's first six
+        columns are those of its own velocity and angular velocity. J^T takes a wrench [moment about that
+        point; force] to forces on the coordinates.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        link : str, int or Link
+        point : array_like, shape (3,), optional
+            [m] in the link's frame.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
+            Of many rows (rows, 6, n_v) or (rows, 3, n_v).
+
+        Raises
+        ------
+        ModelError
+            On an unknown link, a wrong shape, or a value that is not finite.
+        """
+    def joint(self, name: str) -> JointInfo:
+        """
+        The JointInfo of this name; ModelError with the names there are.
         """
     def kinetic_energy(self, state: State) -> float:
         """
@@ -1043,9 +1417,9 @@ class Model:
         ModelError
             On an unknown name, a wrong shape, or a value that is not finite.
         """
-    def link(self, name: str) -> int:
+    def link(self, name: str) -> Link:
         """
-        Index of a link; ModelError with the names there are.
+        The Link of this name; ModelError with the names there are.
         """
     def mass_matrix(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -1061,6 +1435,31 @@ class Model:
         Returns
         -------
         numpy.ndarray, shape (n_v, n_v)
+        """
+    def momentum(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        *,
+        about: numpy.typing.ArrayLike | None = None,
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Momentum of all that moves, [angular; linear] in world axes.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,) or (rows, n_q), or mapping of names to values
+            [rad | m]
+        v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
+            [rad/s | m/s]
+        about : array_like, shape (3,) or (rows, 3), optional
+            [m] point in the world that the angular momentum is about; None: the world's origin. With
+            `centre_of_mass(q)` it is the centroidal momentum.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6,) or (rows, 6)
+            Angular momentum [kg m^2/s], momentum [kg m/s].
         """
     def neutral(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
@@ -1104,7 +1503,7 @@ class Model:
     def pose(
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
-        link: str | int,
+        link: str | int | Link,
     ) -> Pose:
         """
         Pose of a link in the world; `Model::X_WL` in C++.
@@ -1127,7 +1526,9 @@ class Model:
             On an unknown link or coordinate, a wrong shape, or a value that is not finite.
         """
     def poses(
-        self, q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], link: str | int
+        self,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        link: str | int | Link,
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Poses of a link at many configurations.
@@ -1217,7 +1618,7 @@ class Model:
         self,
         q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
         v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
-        link: str | int,
+        link: str | int | Link,
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
         Velocities of a link at many configurations.
@@ -1263,13 +1664,38 @@ class Model:
         A copy without any pair: bodies pass through each other.
         """
     @property
+    def armature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [kg m^2 | kg] shape (n_v,)
+        """
+    @property
+    def control_limits(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        range of each control, shape (n_u, 2)
+        """
+    @property
+    def control_names(self) -> list[str]:
+        """
+        names of the actuators, in the order of controls
+        """
+    @property
     def coordinate_names(self) -> list[str]: ...
     @property
     def coordinates(self) -> list[Coordinate]: ...
     @property
+    def damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [N m s/rad | N s/m] that acts, shape (n_v,)
+        """
+    @property
     def default_contact(self) -> ContactProperties | None:
         """
         ContactProperties of all pairs that nothing else is said of; None where nothing is said
+        """
+    @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [N m | N] that acts, shape (n_v,)
         """
     @property
     def gravity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
@@ -1280,6 +1706,11 @@ class Model:
     def joint_names(self) -> list[str]: ...
     @property
     def joints(self) -> list[JointInfo]: ...
+    @property
+    def limit_names(self) -> list[str]:
+        """
+        names of the joints' stops, which contacts and impacts may be at
+        """
     @property
     def link_names(self) -> list[str]: ...
     @property
@@ -1293,6 +1724,11 @@ class Model:
     def n_q(self) -> int:
         """
         numbers in q: a ball joint has four
+        """
+    @property
+    def n_u(self) -> int:
+        """
+        number of actuators
         """
     @property
     def n_v(self) -> int:
@@ -1334,38 +1770,6 @@ class Model:
     def warnings(self) -> list[str]:
         """
         what was understood but is not used
-        """
-
-class Mimic:
-    """
-    This joint's displacement is `multiplier * (displacement of joint) + offset`.
-
-    Parameters
-    ----------
-    joint : str
-        Name of the joint to follow; both have one coordinate.
-    multiplier : float
-    offset : float
-        [rad | m]
-    """
-    def __getstate__(self) -> tuple: ...
-    def __init__(
-        self,
-        joint: str,
-        multiplier: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-    ) -> None: ...
-    def __reduce__(self) -> tuple: ...
-    def __repr__(self) -> str: ...
-    def __setstate__(self, arg0: tuple) -> None: ...
-    @property
-    def joint(self) -> str: ...
-    @property
-    def multiplier(self) -> float: ...
-    @property
-    def offset(self) -> float:
-        """
-        [rad | m]
         """
 
 class InertiaCheck(enum.Enum):
@@ -1444,6 +1848,48 @@ class ModelBuilder:
             On duplicate names (the message proposes a prefix), on half-spaces that would move, and on
             contradictions in default contacts, contacts of materials, floors, or gaps between adjacent
             links. Nothing is added then.
+        """
+    def add_actuator(
+        self,
+        name: str,
+        *,
+        joints: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex],
+        gain: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        bias: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ] = (0.0, 0.0, 0.0),
+        effort: typing.SupportsFloat | typing.SupportsIndex = ...,
+        control: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ] = ...,
+    ) -> ModelBuilder:
+        """
+        Adds an actuator that is affine in what it moves, as MuJoCo's `general`.
+
+        With l the sum of ratio times coordinate over `joints` it pushes each joint by its ratio times
+        `clip(gain clip(control) + bias[0] + bias[1] l + bias[2] dl/dt)`.
+
+        Parameters
+        ----------
+        name : str
+        joints : mapping of str to float
+            Joints of one coordinate and their ratios.
+        gain : float
+        bias : (float, float, float)
+        effort : float
+            Of the force, before ratios, at most.
+        control : (float, float), optional
+            Range of the control; beyond it the nearest value acts.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            As `add_motor`.
         """
     def add_body(
         self,
@@ -1617,6 +2063,16 @@ class ModelBuilder:
         ModelError
             On a duplicate name, a zero axis, limits in the wrong order, and NaN or infinite values.
         """
+    def add_joint_spring(
+        self,
+        joint: str,
+        *,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex,
+        rest: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Adds V = stiffness (q - rest)^2 / 2, [N m/rad | N/m] and [rad | m]; returns the builder.
+        """
     def add_link(
         self, name: str, inertia: BodyInertia = ..., *, check: InertiaCheck | str = ...
     ) -> ModelBuilder:
@@ -1635,6 +2091,74 @@ class ModelBuilder:
         ------
         ModelError
             On a duplicate name and on an inertia that no body can have.
+        """
+    def add_motor(
+        self,
+        name: str,
+        *,
+        joint: str,
+        gear: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        effort: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> ModelBuilder:
+        """
+        Adds a motor; the control is its torque [N m], or force [N].
+
+        Parameters
+        ----------
+        name : str
+        joint : str
+            Of one coordinate.
+        gear : float
+            The joint gets `gear` times the motor's torque.
+        effort : float
+            Of the motor at most; it is also the range of the control.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a joint that does not exist or has several coordinates, a name that is taken, an effort that
+            is not positive.
+        """
+    def add_position_servo(
+        self,
+        name: str,
+        *,
+        joint: str,
+        kp: typing.SupportsFloat | typing.SupportsIndex,
+        kd: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        effort: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> ModelBuilder:
+        """
+        Adds a servo, kp (control - q) - kd v; the control is the position to reach.
+
+        The servo acts inside the step, which is stable at any gain.
+
+        Parameters
+        ----------
+        name : str
+        joint : str
+            Of one coordinate.
+        kp : float
+            [N m/rad | N/m]
+        kd : float
+            [N m s/rad | N s/m]
+        effort : float
+            [N m | N] at most.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            As `add_motor`.
         """
     def add_shape(
         self,
@@ -1658,6 +2182,37 @@ class ModelBuilder:
         ------
         ModelError
             On sizes that are not finite and positive, and on a half-space of a link other than the root.
+        """
+    def add_velocity_servo(
+        self,
+        name: str,
+        *,
+        joint: str,
+        kv: typing.SupportsFloat | typing.SupportsIndex,
+        effort: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> ModelBuilder:
+        """
+        Adds a servo, kv (control - v); the control is the rate to reach.
+
+        Parameters
+        ----------
+        name : str
+        joint : str
+            Of one coordinate.
+        kv : float
+            [N m s/rad | N s/m]
+        effort : float
+            [N m | N] at most.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            As `add_motor`.
         """
     def add_visual(
         self,
@@ -1710,6 +2265,48 @@ class ModelBuilder:
         """
         The checks of `build` alone; raises ModelError.
         """
+    def joint(self, name: str) -> BuilderJoint:
+        """
+        A joint by name, to read and to change.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        BuilderJoint
+
+        Raises
+        ------
+        ModelError
+            On an unknown name; lists the names there are.
+        """
+    def link(self, name: str) -> BuilderLink:
+        """
+        A link by name, to read and to change.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        BuilderLink
+
+        Raises
+        ------
+        ModelError
+            On an unknown name; lists the names there are.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.read_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> builder.link("ball_0").mass = 2.0
+        >>> builder.build().link("ball_0").mass
+        2.0
+        """
     def set_adjacent_links(self, adjacent: AdjacentLinks | str) -> ModelBuilder:
         """
         Sets whether links on both sides of one joint may collide.
@@ -1719,6 +2316,12 @@ class ModelBuilder:
         Parameters
         ----------
         adjacent : AdjacentLinks or str
+        """
+    def set_armature(
+        self, joint: str, armature: typing.SupportsFloat | typing.SupportsIndex
+    ) -> ModelBuilder:
+        """
+        [kg m^2 | kg] of a motor's rotor, as the joint feels it; returns the builder.
         """
     def set_contact(
         self,
@@ -1745,6 +2348,12 @@ class ModelBuilder:
         ModelError
             On values out of their range; `build` raises it on materials that no link has.
         """
+    def set_damping(
+        self, joint: str, damping: typing.SupportsFloat | typing.SupportsIndex
+    ) -> ModelBuilder:
+        """
+        [N m s/rad | N s/m] viscous; returns the builder. Of a floating or spherical joint it acts on the angular velocity.
+        """
     def set_default_contact(
         self,
         *,
@@ -1756,6 +2365,27 @@ class ModelBuilder:
 
         `set_contact` of their materials takes precedence, then the properties of a floor (`add_floor`). The
         default is elastic and frictionless. Parameters as in `set_contact`.
+        """
+    def set_effects(self, effects: JointEffects | str, joint: str | None = None) -> ModelBuilder:
+        """
+        Sets what of joints acts in steps.
+
+        Parameters
+        ----------
+        effects : JointEffects or str
+        joint : str, optional
+            None: all joints that there are now.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+        """
+    def set_friction(
+        self, joint: str, friction: typing.SupportsFloat | typing.SupportsIndex
+    ) -> ModelBuilder:
+        """
+        [N m | N] dry; returns the builder.
         """
     def set_gravity(
         self, gravity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
@@ -1777,6 +2407,36 @@ class ModelBuilder:
         link : str
         group : str
             Any name, for `add_group_exclusion`.
+        """
+    def set_limit(
+        self,
+        joint: str,
+        lower: typing.SupportsFloat | typing.SupportsIndex,
+        upper: typing.SupportsFloat | typing.SupportsIndex,
+        *,
+        restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Sets the range of a joint of one coordinate.
+
+        Parameters
+        ----------
+        joint : str
+        lower, upper : float
+            [rad | m] infinite where there is no limit.
+        restitution : float
+            At the stops, in [0, 1].
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a joint that does not exist or has several coordinates, lower > upper, a restitution outside
+            of [0, 1].
         """
     def set_material(self, link: str, material: str) -> ModelBuilder:
         """
@@ -1801,7 +2461,301 @@ class ModelBuilder:
         solver : TreeSolver or str
         """
     @property
+    def joint_names(self) -> list[str]: ...
+    @property
+    def link_names(self) -> list[str]: ...
+    @property
     def warnings(self) -> list[str]: ...
+
+class BuilderLink:
+    """
+    A link of a builder: what is set here is checked and kept at once.
+
+    Made by `ModelBuilder.link`. Models that were built before do not change.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def inertia(self) -> BodyInertia:
+        """
+        BodyInertia: mass, centre of mass and inertia about it, in the link's frame
+        """
+    @inertia.setter
+    def inertia(self, arg1: BodyInertia) -> None: ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg] When it is set the centre of mass stays, and the inertia about it grows with it
+        """
+    @mass.setter
+    def mass(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def material(self) -> str | None:
+        """
+        what its shapes are made of, see `set_contact`; None where nothing is said
+        """
+    @material.setter
+    def material(self, arg1: str) -> None: ...
+    @property
+    def name(self) -> str: ...
+
+class BuilderJoint:
+    """
+    A joint of a builder: what is set here is checked and kept at once.
+
+    Made by `ModelBuilder.joint`. Models that were built before do not change.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def X_PJ(self) -> Pose:
+        """
+        Pose of the joint's frame in the parent link's
+        """
+    @X_PJ.setter
+    def X_PJ(self, arg1: Pose) -> None: ...
+    @property
+    def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        in the joint's frame, of any length but 0, shape (3,)
+        """
+    @axis.setter
+    def axis(
+        self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+    ) -> None: ...
+    @property
+    def child(self) -> str: ...
+    @property
+    def damping(self) -> float:
+        """
+        [N m s/rad | N s/m]
+        """
+    @damping.setter
+    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def effort(self) -> float:
+        """
+        [N m | N] limit, inf where there is none
+        """
+    @effort.setter
+    def effort(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction(self) -> float:
+        """
+        [N m | N]
+        """
+    @friction.setter
+    def friction(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def lower(self) -> float:
+        """
+        [rad | m] limit, -inf where there is none
+        """
+    @lower.setter
+    def lower(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def mimic(self) -> Mimic | None:
+        """
+        Mimic or None
+        """
+    @mimic.setter
+    def mimic(self, arg1: Mimic | None) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def parent(self) -> str: ...
+    @property
+    def pitch(self) -> float:
+        """
+        [m/rad] helical joints only
+        """
+    @pitch.setter
+    def pitch(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def type(self) -> JointType: ...
+    @property
+    def upper(self) -> float:
+        """
+        [rad | m] limit, inf where there is none
+        """
+    @upper.setter
+    def upper(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity(self) -> float:
+        """
+        [rad/s | m/s] limit, inf where there is none
+        """
+    @velocity.setter
+    def velocity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Frames:
+    """
+    A model at one configuration: its kinematics once, then what follows.
+
+    Made by `Model.at`. `set` moves it on without new memory, which a loop over configurations wants; to
+    have many at once, the methods of `Model` take arrays of shape (rows, n_q). World axes and
+    [angular; linear] throughout. Not for two threads at once.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def accelerations(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        As `Model.accelerations`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        forces : array_like, shape (n_v,), or mapping of names to values, optional
+            [N m | N]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,)
+        """
+    def all_poses(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Homogeneous matrices of all links, shape (links, 4, 4).
+        """
+    def all_shape_poses(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Homogeneous matrices of all shapes, shape (shapes, 4, 4).
+        """
+    def centre_of_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] of all that moves, in the world, shape (3,).
+        """
+    def gaps(self) -> Gaps:
+        """
+        Gaps of all pairs, as `Model.gaps`.
+        """
+    def gravity_forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        What gravity does to the coordinates [N m | N], shape (n_v,); see `Model`.
+        """
+    def inverse_dynamics(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        As `Model.inverse_dynamics`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        a : array_like, shape (n_v,), or mapping of names to values
+            [rad/s^2 | m/s^2]
+
+        Returns
+        -------
+        numpy.ndarray, shape (n_v,)
+        """
+    def jacobian(
+        self, link: str | int | Link, point: numpy.typing.ArrayLike | None = None
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        As `Model.jacobian`, here.
+
+        Parameters
+        ----------
+        link : str, int or Link
+        point : array_like, shape (3,), optional
+            [m] in the link's frame.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6, n_v), with a point (3, n_v)
+        """
+    def mass_matrix(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        M(q), shape (n_v, n_v).
+        """
+    def momentum(
+        self,
+        v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        *,
+        about: numpy.typing.ArrayLike | None = None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
+        """
+        As `Model.momentum`, here.
+
+        Parameters
+        ----------
+        v : array_like, shape (n_v,), or mapping of names to values
+            [rad/s | m/s]
+        about : array_like, shape (3,), optional
+            [m] point in the world; None: its origin.
+
+        Returns
+        -------
+        numpy.ndarray, shape (6,)
+        """
+    def pose(self, link: str | int | Link) -> Pose:
+        """
+        Pose of a link in the world.
+
+        Parameters
+        ----------
+        link : str, int or Link
+
+        Returns
+        -------
+        Pose
+        """
+    def set(
+        self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
+    ) -> Frames:
+        """
+        Moves to another configuration and returns itself.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping of names to values
+            [rad | m]
+
+        Returns
+        -------
+        Frames
+        """
+    def shape_pose(self, shape: str | int) -> Pose:
+        """
+        Pose of a shape in the world.
+
+        Parameters
+        ----------
+        shape : str or int
+            Its name, as in pairs, or index.
+
+        Returns
+        -------
+        Pose
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg] of all that moves
+        """
+    @property
+    def model(self) -> Model: ...
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [rad | m] shape (n_q,)
+        """
 
 class MeshUse(enum.Enum):
     """
@@ -2179,6 +3133,7 @@ class Impact:
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
+    def _repr_html_(self) -> str: ...
     @property
     def certificate(self) -> str: ...
     @property
@@ -2264,6 +3219,8 @@ class StepReport:
         bodies in contact stand still in.
     contacts : list of ContactImpulse
         Impulses that held contacts closed over the step, each pair once, without those of impacts.
+    work : dict of str to float
+        [J] done on the model in the step: by each actuator, and by "damping", "friction", "applied".
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -2285,6 +3242,8 @@ class StepReport:
     def settlings(self) -> list[tuple[float, str]]: ...
     @property
     def sustained(self) -> int: ...
+    @property
+    def work(self) -> dict[str, float]: ...
 
 class Stepper:
     """
@@ -2330,13 +3289,28 @@ class Stepper:
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
-    def advance(self, state: State) -> State:
+    def advance(
+        self,
+        state: State,
+        *,
+        control: typing.Any = None,
+        forces: collections.abc.Mapping[str, Wrench] | None = None,
+        qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+    ) -> State:
         """
         The state h later; `state` is not changed.
 
         Parameters
         ----------
         state : State
+        control : mapping of names to values, or array_like, shape (n_u,), optional
+            Of the actuators over the step; those not named are 0.
+        forces : mapping of links' names to Wrench, optional
+            Forces and torques on links over the step.
+        qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+            [N m | N] forces on the coordinates over the step.
 
         Returns
         -------
@@ -2365,6 +3339,18 @@ class Trajectory:
     """
     The arrays of a run, as read-only views; `saltus.Trajectory` wraps this.
     """
+    @staticmethod
+    def from_states(
+        model: Model,
+        t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        rows: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        momenta: bool,
+        h: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> Trajectory:
+        """
+        A run of given rows: `rows` are velocities or `momenta`.
+        """
     def __init__(self, model: Model) -> None:
         """
         Of no rows; `simulate` writes to it.
@@ -2381,6 +3367,11 @@ class Trajectory:
     def contacts(self) -> typing.Any:
         """
         structured array: row, t, impact (-1: held), and as impulses; None where they were not recorded
+        """
+    @property
+    def control(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        shape (rows, n_u)
         """
     @property
     def energy_error(self) -> float: ...
@@ -2452,12 +3443,18 @@ class Trajectory:
         """
         [rad/s | m/s] shape (rows, n)
         """
+    @property
+    def work(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        [J] shape (rows, n_u + 3): of actuators, damping, friction, applied forces
+        """
 
 class Energies:
     """
     Energies of one state.
     """
     def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
     @property
     def kinetic(self) -> float:
         """
@@ -2504,6 +3501,11 @@ class BatchTrajectory:
     def complete(self) -> numpy.ndarray:
         """
         shape (runs,)
+        """
+    @property
+    def control(self) -> typing.Any:
+        """
+        shape (runs, rows, n_u)
         """
     @property
     def energy_error(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -2568,6 +3570,11 @@ class BatchTrajectory:
     def v(self) -> typing.Any:
         """
         [rad/s | m/s] shape (runs, rows, n)
+        """
+    @property
+    def work(self) -> typing.Any:
+        """
+        [J] shape (runs, rows, n_u + 3)
         """
 
 def classify_impact(
@@ -2736,6 +3743,7 @@ def read_urdf(
     srdf: str | os.PathLike[str] | None = None,
     contact: ContactProperties | None = None,
     floor: bool = False,
+    effects: JointEffects | str = ...,
     visuals: bool = True,
     inertia: InertiaUse | str = ...,
     strict: bool = False,
@@ -2763,6 +3771,8 @@ def read_urdf(
         The default contact, in place of the file's own.
     floor : bool
         Adds the half-space z <= 0, as `ModelBuilder.add_floor` does, unless the file has it.
+    effects : JointEffects or str
+        What of the joints acts: limits, damping, dry friction, motors.
     visuals : bool
         Reads what links look like, `Model.visuals`.
     inertia : InertiaUse or str
@@ -2910,6 +3920,12 @@ def simulate(
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
     record_contacts: bool = False,
+    control: typing.Any = None,
+    control_every: typing.SupportsInt | typing.SupportsIndex = 1,
+    forces: collections.abc.Mapping[str, Wrench] | None = None,
+    qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+    | numpy.typing.ArrayLike
+    | None = None,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
 ) -> None:
     """
@@ -2928,6 +3944,10 @@ def simulate(
         Steps between recorded rows.
     record_contacts : bool
         Whether to fill `contacts`.
+    control, forces, qfrc
+        As `saltus.simulate` takes them.
+    control_every : int
+        Steps between the times that a function is asked.
     progress : callable, optional
         Called about ten times a second with the part done in [0, 1]; what it returns is not used.
 
@@ -2948,6 +3968,13 @@ def simulate_batch(
     options: StepOptions = ...,
     record_every: typing.SupportsInt | typing.SupportsIndex = 1,
     record_contacts: bool = False,
+    control: collections.abc.Sequence[
+        typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
+    ] = [],
+    forces: collections.abc.Mapping[str, Wrench] | None = None,
+    qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+    | numpy.typing.ArrayLike
+    | None = None,
     threads: typing.SupportsInt | typing.SupportsIndex = 0,
     on_failure: OnFailure | str = ...,
     progress: collections.abc.Callable[[float], typing.Any] | None = None,
@@ -2968,6 +3995,10 @@ def simulate_batch(
         Steps between recorded rows.
     record_contacts : bool
         Whether to fill `contacts` of each run.
+    control : list of numpy.ndarray, shape (steps, n_u)
+        Of each run, or none; the last row holds on.
+    forces, qfrc
+        Of all runs, as `saltus.simulate` takes them.
     threads : int
         0: as many as the machine runs at once. The bits do not depend on it.
     on_failure : OnFailure or str

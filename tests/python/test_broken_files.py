@@ -142,7 +142,7 @@ OLDER = {
     "velocity_names", "certificates", "settlings", "fallbacks", "urdf", "@saltus_version", "@model",
     "@order", "@certify", "@solver", "@meshes", "@floor", "@inertia", "@max_halvings", "@strict",
     "@max_impulses", "@max_iterations", "@max_impacts", "@rest", "@simultaneous", "@h",
-    "@collisions",
+    "@collisions", "@effects", "control", "work", "control_names",
 }  # fmt: skip
 
 

@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 import pytest
+from tests.python.test_forces import GOLDEN, H, assert_rows, pendulum
 
 import saltus
 from saltus import BodyInertia, JointEffects, JointType, ModelBuilder, ModelError, Pose
-
-from tests.python.test_forces import GOLDEN, H, assert_rows, pendulum
 
 
 def test_bounces_on_a_limit_are_the_reference() -> None:
@@ -219,14 +218,14 @@ def test_transmissions_that_are_no_motors_are_told() -> None:
 
 
 def test_a_typo_in_the_block_is_told_with_its_line() -> None:
-    text = ROBOT.replace("<joint name=\"elbow\" armature", '<joint name="elbw" armature')
+    text = ROBOT.replace('<joint name="elbow" armature', '<joint name="elbw" armature')
     with pytest.raises(ModelError, match=r'URDF text:\d+: no joint "elbw"; joints are elbow'):
         saltus.load_urdf(text)
 
 
 def test_a_robot_falls_on_a_floor_and_its_limits_hold() -> None:
     """Contacts, limits and dry friction share their load in one law."""
-    builder = saltus.read_urdf(ROBOT.replace("<link name=\"base\"/>", '<link name="base"/>'))
+    builder = saltus.read_urdf(ROBOT.replace('<link name="base"/>', '<link name="base"/>'))
     builder.add_shape("arm", saltus.Sphere(0.05), Pose((0, 0, -1.0)))
     builder.add_floor("wall", normal=(-1, 0, 0), offset=-0.3, restitution=0.2, friction=0.5)
     model = builder.build()

@@ -53,7 +53,16 @@ ORDER = {
         "pull",
         "live",
     ],
-    "runs": ["trajectory", "batch_trajectory", "starts", "progress", "moment", "simulate", "batch"],
+    "runs": [
+        "shown",
+        "trajectory",
+        "batch_trajectory",
+        "starts",
+        "progress",
+        "moment",
+        "simulate",
+        "batch",
+    ],
     "cli": ["commands", "looking", "main"],
 }
 

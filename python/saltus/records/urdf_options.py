@@ -83,6 +83,6 @@ def _parts(model: Model) -> tuple[object, ...]:
     pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
     if model.n_pairs <= LISTED_PAIRS:
         pairs = [(n, repr(model.contact_properties(i))) for i, n in enumerate(model.pair_names)]
-    drives = model.limit_names, model.control_names, model.damping.tolist()
-    drives = (*drives, model.friction.tolist(), model.armature.tolist())
+    acting = [x.tolist() for x in (model.damping, model.friction, model.armature)]
+    drives = model.limit_names, model.control_names, acting
     return *names, *drives, pairs, [repr(trees) for trees in model.solvers]

@@ -123,13 +123,7 @@ def simulate_batch(
     check_types(model, bounds, "simulate_batch")
     if threads is not None and threads < 1:
         raise ModelError(f"threads = {threads}; it must be at least 1, or None for all there are")
-    if states is None:
-        states = to_states(model, q, v)
-    elif q is not None or v is not None:
-        raise ModelError("give either states or q and v, not both")
-    for i, state in enumerate(states):
-        if not isinstance(state, State):
-            raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
+    states = _starts(model, q, v, states)
     options = StepOptions(h, law, collisions, **bounds)
     core = _core.BatchTrajectory(model)
     with progress_bar(progress, len(states), "runs") as report:
@@ -163,6 +157,18 @@ def simulate_batch(
             stacklevel=2,
         )
     return batch
+
+
+def _starts(model: Model, q: Starts, v: Starts, states: Sequence[State] | None) -> Sequence[State]:
+    """Return the states that are given in either way."""
+    if states is None:
+        return to_states(model, q, v)
+    if q is not None or v is not None:
+        raise ModelError("give either states or q and v, not both")
+    for i, state in enumerate(states):
+        if not isinstance(state, State):
+            raise TypeError(f"states[{i}] is a {type(state).__name__}; model.state makes a State")
+    return states
 
 
 def _tell(batch: BatchTrajectory) -> None:

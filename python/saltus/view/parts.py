@@ -115,7 +115,7 @@ class Parts:
     def _visuals(self) -> list[dict[str, Any]]:
         items = []
         for number, visual in enumerate(visuals_of(self.model)):
-            link = self.model.link(visual.link)
+            link = self.model.link(visual.link).index
             body, X_BG = self._in_body(link, self._links[link] @ visual.X_LG.matrix())
             geometry, scale = self.geometries.add(visual.shape)
             *colour, alpha = visual.rgba
@@ -162,7 +162,8 @@ class Parts:
                     rows.append([body, 0.0, 0.0, 0.0, *X_BS[:3, 3]])
         for joint in self.model.joints:
             body, X_BJ = self._in_body(
-                self.model.link(joint.parent), self._links[self.model.link(joint.child)]
+                self.model.link(joint.parent).index,
+                self._links[self.model.link(joint.child).index],
             )
             slides = joint.type in (JointType.floating, JointType.planar, JointType.prismatic)
             if body is None or body == WORLD or body in shaped or slides:
