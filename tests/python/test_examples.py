@@ -61,6 +61,15 @@ PREDICTED = {
         "discrete_energy: 99 impacts, error of H above 1e-04 J\n",
         "shadow_energy: 99 impacts, error of H below 2e-06 J, the shadow energy is kept to 1e-9 J",
     ],
+    "servo_step": [
+        "after 0.3 s at 0.8009 of the way, exactly 0.800852",
+        "energy is the work of the servo, to 1e-12 J: True",
+    ],
+    "held_arm": [
+        "the shoulder bears 19.62 N m, the elbow 4.90 N m",
+        "held by motors it drifts by 0.0e+00 rad",
+        "held by friction it drifts by 0.0e+00 rad",
+    ],
     "own_robot": [
         'names child link "wieght", which does not exist; links are shaft, weight',
         "height after 1 s: -4.905000 m",
