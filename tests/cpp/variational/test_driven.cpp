@@ -1,44 +1,13 @@
-// Driven steps: no allocation, controls and forces in C++, limits and dry friction.
+// Driven steps: controls and forces in C++, limits and dry friction.
 #include <gtest/gtest.h>
 
-#include "count_allocations.hpp"
-#include "kit/builders.hpp"
+#include "kit/driven_arm.hpp"
 #include "saltus/rollout/simulate.hpp"
 
 namespace saltus {
 namespace {
 
-/// Two joints with servos, damping, dry friction and limits.
-Model driven_arm(double friction) {
-  ModelBuilder builder = test::arm();
-  for (const char* joint : {"shoulder", "elbow"}) {
-    builder.set_damping(joint, 0.2).set_armature(joint, 0.05).set_friction(joint, friction);
-    builder.set_limit(joint, -1, 1, 0.2);
-    builder.add_position_servo(joint, joint, 80, 6, 30);
-  }
-  builder.add_actuator(
-      {.name = "belt", .joints = {{"shoulder", 1}, {"elbow", 1}}, .bias_l = -5, .bias_v = -0.5});
-  return builder.build();
-}
-
-TEST(Driven, AStepAfterTheFirstAllocatesNothing) {
-  for (const double friction : {0.0, 0.5}) {
-    const Model model = driven_arm(friction);
-    Stepper stepper(model, {.h = 0.005});
-    State state = model.state({{"shoulder", 0.9}}, {{"shoulder", 3}});
-    ForceInput input;
-    input.control = VecX::Constant(3, 0.4);
-    input.qfrc = VecX::Constant(2, 0.1);
-    input.wrenches.push_back({1, Vec3(0, 0, 0.2), Vec3(1, 0, -2), Vec3::Zero(), false});
-    for (int k = 0; k < 60; ++k) stepper.step(state, input);
-    const long before = test::allocations;
-    for (int k = 0; k < 300; ++k) {
-      input.control[0] = k % 100 < 50 ? 0.6 : -0.6;
-      stepper.step(state, input);
-    }
-    EXPECT_EQ(test::allocations, before) << friction;
-  }
-}
+using test::driven_arm;
 
 TEST(Driven, PoliciesDriveRuns) {
   const Model model = driven_arm(0);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "count_allocations.hpp"
+#include "kit/driven_arm.hpp"
 #include "kit/scenes.hpp"
 
 namespace saltus {
@@ -72,6 +73,25 @@ TEST(Stepper, ATowerThatStandsAllocatesNothing) {
   const long before = allocations;
   for (int k = 0; k < 100; ++k) stepper.step(state);
   EXPECT_EQ(allocations, before);
+}
+
+TEST(Stepper, ADrivenArmAtItsLimitsAllocatesNothing) {
+  for (const double friction : {0.0, 0.5}) {
+    const Model model = test::driven_arm(friction);
+    Stepper stepper(model, {.h = 0.005});
+    State state = model.state({{"shoulder", 0.9}}, {{"shoulder", 3}});
+    ForceInput input;
+    input.control = VecX::Constant(3, 0.4);
+    input.qfrc = VecX::Constant(2, 0.1);
+    input.wrenches.push_back({1, Vec3(0, 0, 0.2), Vec3(1, 0, -2), Vec3::Zero(), false});
+    for (int k = 0; k < 60; ++k) stepper.step(state, input);
+    const long before = allocations;
+    for (int k = 0; k < 300; ++k) {
+      input.control[0] = k % 100 < 50 ? 0.6 : -0.6;
+      stepper.step(state, input);
+    }
+    EXPECT_EQ(allocations, before) << friction;
+  }
 }
 
 }  // namespace

@@ -127,6 +127,20 @@ void add_impulses(const Scene& scene, const Node& node, Rows& rows) {
   }
 }
 
+/// Motors' forces have kinks where they are limited, and Newton's method may turn in circles there:
+/// its step s.dv, which arc.v has taken, is shortened until the arc's equation is met better.
+void shorten(const ModelData& model, const ArcProblem& problem, Arc& arc, ArcScratch& s) {
+  constexpr double tiny = std::numeric_limits<double>::min();
+  constexpr double near = 1e-8;  // from there on no kink is in the way, and rounding would be
+  const auto size = s.scale.array() + problem.p.array().abs() + tiny;
+  const double before = (s.r.array().abs() / size).maxCoeff();
+  for (int k = 0; k < 12 && before > near; ++k) {
+    if (momentum_residual(model, problem, arc.v, s, true) < before) return;
+    s.dv /= 2;
+    arc.v -= s.dv;
+  }
+}
+
 }  // namespace
 
 Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
@@ -160,6 +174,7 @@ bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
   const bool is_launched = is_matched(&work.line);
   if (is_launched) take_out_line(model, arc_problem(scene, arc.tau, node, work), arc.v, s);
   arc.v += s.dv;
+  if (s.has_forces) shorten(model, arc_problem(scene, arc.tau, node, work), arc, s);
   if (!arc.v.allFinite()) return false;
   set_rates(scene, node, work);
   clear(rows.W);
