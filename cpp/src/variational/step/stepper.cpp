@@ -160,6 +160,7 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
   const Rung rung = step_unlocated(scene, tau, t, node, end, flight.work.scratch, unlocated);
   ++report.arcs;
   tell(unlocated.impulses, report);
+  report.friction_residual = std::max(report.friction_residual, unlocated.residual);
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
   saltus::forget(memory);
 }
