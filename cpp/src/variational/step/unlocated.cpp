@@ -31,7 +31,7 @@ void resolve(const Scene& scene, Node& node, Unlocated& x) {
   for (std::size_t i = 0; i < x.cuts.size(); ++i) x.u[i][0] += x.offset[i];
   x.p.assign(x.cuts.size(), Vec3::Zero());
   x.pile.reserve(x.cuts.size());
-  x.residual = settle_for_sure(x.W, x.pile, x.u, x.p).excess;
+  x.residual = settle_for_sure(x.W, x.pile, x.u, x.p, 1e-12).excess;
   for (std::size_t i = 0; i < x.cuts.size(); ++i) apply(scene, x.cuts[i], x.p[i], node);
   x.v = node.v;
   node.p = p_before;
