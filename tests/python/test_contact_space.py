@@ -149,3 +149,15 @@ def test_an_impact_is_unique_for_all_velocities_or_not_certified(seed):
         counts.add(len(every.outcomes))
         assert all(len(out.impulses) <= certificate.impulses for out in every.outcomes)
     assert (counts == {1}) == (certificate.kind is ImpactKind.unique)
+
+
+@pytest.mark.parametrize(("mass", "normal"), [(1, 1e160), (1e-308, 1), (1, 1e308)])
+def test_numbers_beyond_double_precision_are_an_error(mass, normal):
+    """G = N M^-1 N^T overflows where N and M themselves are finite."""
+    M, N = mass * np.eye(2), normal * np.eye(2)
+    for ask in (
+        lambda: saltus.resolve_impact(M, N, [-1.0, -1.0]),
+        lambda: saltus.classify_impact(M, N),
+    ):
+        with pytest.raises(saltus.ModelError, match="beyond double precision"):
+            ask()

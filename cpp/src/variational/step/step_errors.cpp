@@ -160,6 +160,7 @@ void Stepper::Impl::fail_sinking(const Contact& contact) {
 
 void Stepper::Impl::fail_arcs() {
   halves_help = blames_contact = true;
+  if (!scene.options.strict) ++grazes;
   std::ostringstream text;
   text << report.arcs << " arcs but " << report.impacts.size()
        << " impacts in the step from t = " << last.t << " s, the last arc of "

@@ -19,8 +19,11 @@ constexpr double no_duration = 1e-12;
 /// Arcs of attempts at one step that failed: with more it is the arcs that are many, not long.
 constexpr int most_arcs_spent = 256;
 
+/// Attempts at a step with many arcs that graze: those by shorter arcs graze as well.
+constexpr int most_grazing = 3;
+
 /// Arcs of time stepping in a step that others are tried beside.
-constexpr int most_stepped = 8;
+constexpr int most_stepped = 4;
 
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
@@ -72,6 +75,7 @@ void Stepper::Impl::step(State& state, const ForceInput& with) {
   int arcs = 0, iterations = 0;
   longest = scene.options.h;
   is_last_attempt = false;
+  grazes = 0;
   for (int halvings = 0;;) {
     halves_help = blames_contact = false;
     try {
@@ -89,7 +93,8 @@ void Stepper::Impl::step(State& state, const ForceInput& with) {
       if (is_last_attempt || !(halves_help || blames_contact)) break;
     }
     if (std::exchange(has_guesses, false)) continue;
-    const bool is_spent = arcs > most_arcs_spent || iterations > most_work();
+    const bool is_spent =
+        arcs > most_arcs_spent || iterations > most_work() || grazes >= most_grazing;
     if (!halves_help || is_spent || halvings == scene.options.max_halvings) {
       if (scene.options.strict || !blames_contact) break;
       is_last_attempt = true;
@@ -160,6 +165,7 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
   const Rung rung = step_unlocated(scene, tau, t, node, end, flight.work.scratch, unlocated);
   ++report.arcs;
   tell(unlocated.impulses, report);
+  report.friction_residual = std::max(report.friction_residual, unlocated.residual);
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
   saltus::forget(memory);
 }

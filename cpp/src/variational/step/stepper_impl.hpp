@@ -96,6 +96,7 @@ struct Stepper::Impl {
   // of the last failure
   bool halves_help = false;     // with shorter arcs it may not come
   bool blames_contact = false;  // with time stepping it does not: contacts are to blame
+  int grazes = 0;               // attempts at this step with arcs that end without an impact
   std::string cause;
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0

@@ -31,7 +31,7 @@ void resolve(const Scene& scene, Node& node, Unlocated& x) {
   for (std::size_t i = 0; i < x.cuts.size(); ++i) x.u[i][0] += x.offset[i];
   x.p.assign(x.cuts.size(), Vec3::Zero());
   x.pile.reserve(x.cuts.size());
-  settle_for_sure(x.W, x.pile, x.u, x.p);
+  x.residual = settle_for_sure(x.W, x.pile, x.u, x.p, 1e-12).excess;
   for (std::size_t i = 0; i < x.cuts.size(); ++i) apply(scene, x.cuts[i], x.p[i], node);
   x.v = node.v;
   node.p = p_before;
@@ -69,6 +69,19 @@ void stop(const Scene& scene, Unlocated& x) {
     }
   }
   x.p.assign(x.cuts.size(), Vec3::Zero());
+}
+
+/// Stands still all that has to, for the rest to overlap nowhere.
+void stop_until_clear(const Scene& scene, double tau, const Node& node, Node& end, Unlocated& x) {
+  x.residual = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    stop(scene, x);
+    place_end_node(scene, tau, node, end, x);
+    if (find_contacts(scene, end) && !cut_overlaps(scene, tau, node, end, x)) return;
+  }
+  x.v.setZero();
+  x.p.assign(x.cuts.size(), Vec3::Zero());
+  place_end_node(scene, tau, node, end, x);
 }
 
 /// M(q+) v, and v shortened where the arc gained energy beyond what forces do.
@@ -111,6 +124,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
   x.cuts.clear();
   x.offset.clear();
   x.pair = -1;
+  x.residual = 0;
   set_velocity_at_node(scene, node);
   const double before = node_energy(scene, node);
   evaluate_at(model, node.q, node.p, node.v, arc);
@@ -135,10 +149,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
     rung = Rung::unlocated;
     break;
   }
-  if (rung == Rung::stopped) {
-    stop(scene, x);
-    place_end_node(scene, tau, node, end, x);
-  }
+  if (rung == Rung::stopped) stop_until_clear(scene, tau, node, end, x);
   if (!set_momenta(scene, tau, before, end, arc, x)) {
     rung = Rung::stopped;
     x.v.setZero();

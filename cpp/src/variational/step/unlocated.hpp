@@ -21,8 +21,9 @@ struct Unlocated {
   explicit Unlocated(const Scene& scene);
 
   std::vector<ContactImpulse> impulses;
-  double energy = 0;  ///< [J] what the arc has changed
-  int pair = -1;      ///< number of the pair that took the largest impulse
+  double energy = 0;    ///< [J] what the arc has changed
+  int pair = -1;        ///< number of the pair that took the largest impulse
+  double residual = 0;  ///< of Coulomb's law, as StepReport::friction_residual
 
   // scratch; it is rare, and may allocate
   std::vector<Contact> cuts;   ///< rows, as contacts
@@ -37,7 +38,8 @@ struct Unlocated {
 };
 
 /// Leaves the node tau later, at time t. `end` is a node that may be used, and `arc` scratch.
-/// @return Rung::unlocated, or Rung::stopped: bodies in contact stand still
+/// @return Rung::unlocated, or Rung::stopped: bodies in contact stand still, and with them what
+/// would fly into one that does
 Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& end,
                     ArcScratch& arc, Unlocated& x);
 
