@@ -89,8 +89,14 @@ void lock(double displacement, JointSpec& spec) {
   } else {
     X.R = Eigen::AngleAxisd(displacement, axis).toRotationMatrix();
   }
-  spec.X_PJ = spec.X_PJ * X;
-  spec.type = JointType::fixed;
+  JointSpec locked;  // without limits, damping and friction
+  locked.name = spec.name;
+  locked.type = JointType::fixed;
+  locked.parent = spec.parent;
+  locked.child = spec.child;
+  locked.X_PJ = spec.X_PJ * X;
+  locked.effects = spec.effects;
+  spec = locked;
 }
 
 void set_mimic(const Document& document, const XMLElement& joint, const urdf::Joint& parsed,
