@@ -114,6 +114,25 @@ def test_a_flat_mesh_is_a_plate_below_the_side_it_looks_at(tmp_path, corners, up
         load(tmp_path, "a.obj", strict=True)
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.stl", "solid it\nendsolid it\n"),
+        ("a.stl", "solid it\nfacet normal 0 0 1\nouter loop\nendloop\nendfacet\nendsolid it\n"),
+        ("a.obj", "o nothing\n"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2\np 1\n"),
+        ("a.dae", "<COLLADA/>"),
+        ("a.dae", dae("")),
+        ("a.dae", dae(f"<node>{HERE}</node>", [], [])),
+    ],
+)
+def test_files_with_nothing_in_them(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(saltus.ModelError, match=f'has a collision mesh, "{name}", which '):
+        load(tmp_path, name)
+
+
 def test_a_line_is_no_plate(tmp_path):
     (tmp_path / "a.obj").write_text(obj([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [range(3)]))
     with pytest.raises(saltus.ModelError, match="has no convex hull"):

@@ -89,8 +89,14 @@ void lock(double displacement, JointSpec& spec) {
   } else {
     X.R = Eigen::AngleAxisd(displacement, axis).toRotationMatrix();
   }
-  spec.X_PJ = spec.X_PJ * X;
-  spec.type = JointType::fixed;
+  JointSpec locked;  // without limits, damping and friction
+  locked.name = spec.name;
+  locked.type = JointType::fixed;
+  locked.parent = spec.parent;
+  locked.child = spec.child;
+  locked.X_PJ = spec.X_PJ * X;
+  locked.effects = spec.effects;
+  spec = locked;
 }
 
 void set_mimic(const Document& document, const XMLElement& joint, const urdf::Joint& parsed,
@@ -149,7 +155,7 @@ LinkSpec root_link(const Document& document, const urdf::ModelInterface& parsed,
 }
 
 InertiaCheck check_of(const UrdfOptions& options) {
-  if (options.inertia == InertiaUse::as_given) return InertiaCheck::as_given;
+  if (options.inertia != InertiaUse::checked) return InertiaCheck::as_given;
   return options.strict ? InertiaCheck::strict : InertiaCheck::lenient;
 }
 
@@ -171,6 +177,21 @@ void located(const Document& document, const std::function<void()>& add) {
     add();
   } catch (const ModelError& error) {
     throw document.located(error);
+  }
+}
+
+/// The builder's checks; files that describe a robot for its kinematics only are told a way out.
+void check_whole(const ModelBuilder& builder, const UrdfOptions& options) {
+  try {
+    builder.check();
+  } catch (const ModelError& error) {
+    const std::string what = error.what();
+    if (what.find("moves no mass") == std::string::npos) throw;
+    const bool tried = options.inertia == InertiaUse::from_shapes;
+    throw ModelError(what + (tried ? ", or a shape to make it of"
+                                   : "; inertia=\"from_shapes\" of load_urdf makes those that are "
+                                     "missing"),
+                     error.element, error.name);
   }
 }
 
@@ -214,16 +235,7 @@ ModelBuilder read_urdf(const std::string& path_or_text, const UrdfOptions& optio
   if (options.contact) builder.set_default_contact(*options.contact);
   if (options.floor) add_floor(document, builder);
   if (options.srdf) add_srdf(*options.srdf, document, options.strict, builder);
-  located(document, [&] {
-    try {
-      builder.check();
-    } catch (const ModelError& error) {
-      const std::string what = error.what();
-      if (what.find("moves no mass") == std::string::npos) throw;
-      throw ModelError(what + "; inertia=\"from_shapes\" of load_urdf makes those that are missing",
-                       error.element, error.name);
-    }
-  });
+  located(document, [&] { check_whole(builder, options); });
   return builder;
 }
 

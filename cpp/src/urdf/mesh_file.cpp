@@ -93,6 +93,19 @@ void add_node(const aiScene& scene, const aiNode& node, const Transform& above,
   for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(scene, *node.mChildren[i], T, surfaces);
 }
 
+/// Are there faces of more than three corners? Assimp must not be asked to cut them where a part of
+/// the file has none at all.
+bool has_polygons(const aiScene& scene) {
+  bool any = false, empty = false;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    empty = empty || mesh.mNumFaces == 0 || mesh.mFaces == nullptr || mesh.mVertices == nullptr;
+    for (unsigned k = 0; k < mesh.mNumFaces; ++k) any = any || mesh.mFaces[k].mNumIndices > 3;
+  }
+  if (any && empty) fail_mesh("cannot be read: a part of it is empty");
+  return any;
+}
+
 /// Makes vertices distinct, in the order of their coordinates, and drops faces without area.
 void unite(Triangles& mesh) {
   std::vector<Vec3>& vertices = mesh.vertices;
@@ -141,7 +154,10 @@ std::vector<MeshSurface> read_mesh(const fs::path& file) {
 
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  if (scene != nullptr && has_polygons(*scene)) {
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (scene == nullptr || scene->mRootNode == nullptr) {
     fail_mesh("cannot be read: " + std::string(importer.GetErrorString()));
   }
@@ -149,6 +165,7 @@ std::vector<MeshSurface> read_mesh(const fs::path& file) {
   add_node(*scene, *scene->mRootNode, Transform::Identity(), found);
   std::vector<MeshSurface> surfaces;
   for (auto& [rgba, triangles] : found) {
+    if (triangles.vertices.empty()) continue;
     for (const Vec3& v : triangles.vertices) {
       if (!v.allFinite()) fail_mesh("has a vertex that is not finite");
     }

@@ -51,7 +51,7 @@ const Mistake numbers_mistakes[] = {
      R"(<origin xyz="0 0 1"/>)",
      R"(<origin xyz="0,0,1"/>)",
      28,
-     {R"(joint "elbow")", R"("0,0,1" is not a number)"},
+     {R"(joint "elbow" has <origin xyz="0,0,1">: numbers are separated by spaces)"},
      "joint",
      "elbow"},
     {"Hexadecimal", R"(value="2")", R"(value="0x2")", 15, {R"("0x2" is not a number)"}},

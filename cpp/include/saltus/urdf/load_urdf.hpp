@@ -50,8 +50,8 @@ enum class MeshUse { hull, none };
 enum class InertiaUse {
   checked,   ///< the file; those that no body can have are refused, but see below
   as_given,  ///< the file, whatever the moments are
-  /// Links without a mass get that of their collision shapes, or where there are none of their
-  /// visuals, filled with water (1000 kg/m^3).
+  /// As as_given; links without a mass get that of their collision shapes, or where there are none
+  /// of their visuals, filled with water (1000 kg/m^3).
   from_shapes,
 };
 
