@@ -5,6 +5,8 @@ Read from the top: each function is one task, and its assertions are what one wo
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
@@ -12,34 +14,7 @@ from scipy.spatial.transform import Rotation
 
 import saltus
 
-ARM = """
-<robot name="arm">
-  <link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision></link>
-  <joint name="shoulder" type="revolute">
-    <parent link="base"/><child link="upper"/>
-    <origin xyz="0 0 0.1"/><axis xyz="0 1 0"/>
-    <limit lower="-2.0" upper="2.0" effort="50" velocity="3"/>
-  </joint>
-  <link name="upper">
-    <inertial>
-      <origin xyz="0 0 0.2"/><mass value="2"/>
-      <inertia ixx="0.03" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.002"/>
-    </inertial>
-  </link>
-  <joint name="elbow" type="revolute">
-    <parent link="upper"/><child link="hand"/>
-    <origin xyz="0 0 0.4"/><axis xyz="0 1 0"/>
-    <limit lower="-2.6" upper="2.6" effort="30" velocity="3"/>
-  </joint>
-  <link name="hand">
-    <inertial>
-      <origin xyz="0 0 0.15"/><mass value="1"/>
-      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.001"/>
-    </inertial>
-    <collision><origin xyz="0 0 0.3"/><geometry><sphere radius="0.05"/></geometry></collision>
-  </link>
-</robot>
-"""
+ARM = Path(__file__).parents[1] / "data" / "arm.urdf"  # two links, a hand, a box as its base
 TIP = (0.0, 0.0, 0.3)  # in the hand's frame
 
 
@@ -114,6 +89,37 @@ def test_gravity_compensation(arm):
     # upper: 2 kg at 0.2 m, hand: 1 kg at 0.55 m, which turn the arm down, by a positive angle
     np.testing.assert_allclose(hold, (-9.81 * (2 * 0.2 + 0.55), -9.81 * 0.15))
     np.testing.assert_allclose(arm.accelerations(q, None, hold), 0, atol=1e-12)
+
+
+def driven_arm() -> saltus.Model:
+    builder = saltus.read_urdf(ARM)
+    builder.add_motor("shoulder", joint="shoulder").add_motor("elbow", joint="elbow")
+    return builder.build()
+
+
+def test_motors_hold_it_still():
+    arm = driven_arm()
+    start = {"shoulder": 1.0, "elbow": 0.5}
+    run = saltus.simulate(arm, start, duration=1.0, control=lambda now: -arm.gravity_forces(now.q))
+    assert np.abs(run.q - run.q[0]).max() < 1e-9
+
+
+def test_pd_control():
+    arm, goal = driven_arm(), np.array((0.5, 1.0))
+
+    def policy(now):  # asked before each step
+        return 100 * (goal - now.q) - 20 * now.v - arm.gravity_forces(now.q)
+
+    run = saltus.simulate(arm, duration=3.0, control=policy)
+    np.testing.assert_allclose(run.q[-1], goal, atol=1e-3)
+
+
+def test_servo():
+    builder = saltus.read_urdf(ARM)
+    builder.add_position_servo("elbow", joint="elbow", kp=200, kd=20)
+    run = saltus.simulate(builder.build(), duration=3.0, control={"elbow": 1.0})
+    sag = 1.0 - run.column("elbow")[-1]  # a spring to the goal: it gives way under the hand
+    assert 0 < abs(sag) < 9.81 * 0.15 / 200 * 1.1
 
 
 def test_contact_forces():
@@ -217,6 +223,10 @@ def test_limits(arm):
     with pytest.raises(saltus.ModelError, match='joint "elbow"'):
         builder.joint("elbow").lower = 5.0  # above the upper one
     assert builder.joint("elbow").lower == -2.6
+    run = saltus.simulate(arm, q={"shoulder": 0.5}, duration=3.0)  # it falls onto its stop
+    assert run.q[:, 0].max() == pytest.approx(2.0, abs=1e-9)
+    free = saltus.load_urdf(ARM, effects="none")
+    assert saltus.simulate(free, q={"shoulder": 0.5}, duration=3.0).q[:, 0].max() > 2.5
 
 
 def test_sensors_along_a_run(arm):
