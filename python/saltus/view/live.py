@@ -21,6 +21,7 @@ from saltus.view.server import PageServer
 from saltus.view.sliders import posture, sliders_of
 
 FRAME = 1 / 60  # s between frames
+BREATH = 0.002  # s between frames at least, in which others get the lock
 QUIET = 0.5  # s without news, after which a stream shows that it lives
 GRACE = 2.0  # s without a page until the server ends: a page may be loaded anew
 MOST_LATE = 0.1  # s that are made up for; what a slow model is later than that is dropped
@@ -52,6 +53,7 @@ class Live:
         self.problem = ""
         self.impulses: list[list[Any]] = []
         self.lock = threading.Lock()
+        self.asking = threading.Event()
         self.news = threading.Condition()
         self.frame = (0, b"")
         self.pages = 0
@@ -80,7 +82,9 @@ class Live:
             raise ModelError(
                 f"the page asked for {body[:80]!r}; there are {', '.join(self.actions)}"
             ) from None
+        self.asking.set()  # the steps let wishes go first, however late they are
         with self.lock:
+            self.asking.clear()
             try:
                 action(asked)
             except (KeyError, TypeError, IndexError) as error:
@@ -104,7 +108,7 @@ class Live:
             last = now
             if moved:
                 self.tell()
-            time.sleep(max(0.0, FRAME - (time.monotonic() - now)))
+            time.sleep(max(BREATH, FRAME - (time.monotonic() - now)))
 
     def tell(self) -> None:
         """Give all pages the state as it is."""
@@ -149,7 +153,7 @@ class Live:
         while owed - made >= self.h and self.playing:
             self._advance()
             made += self.h
-            if time.monotonic() > end:
+            if time.monotonic() > end or self.asking.is_set():
                 break
         return made
 

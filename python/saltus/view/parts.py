@@ -32,11 +32,13 @@ class Parts:
     def __init__(self, model: Model) -> None:
         self.model = model
         self.geometries = Geometries()
+        # Asked once: each time the model makes these lists anew.
+        self.links, self.shapes, self.joints = model.links, model.shapes, model.joints
         self._rest = model.neutral()[np.newaxis]
-        self._links = [model.poses(self._rest, i)[0] for i in range(len(model.links))]
-        self._joint_of = {joint.child: joint for joint in model.joints}
+        self._links = [model.poses(self._rest, i)[0] for i in range(len(self.links))]
+        self._joint_of = {joint.child: joint for joint in self.joints}
         owner = self._owners()
-        shaped = {owner[s.link] for s in model.shapes} - {WORLD}
+        shaped = {owner[s.link] for s in self.shapes} - {WORLD}
         shaped |= {owner[model.link(v.link)] for v in visuals_of(model)} - {WORLD}
         moving = [i for i in range(len(owner)) if owner[i] == i]
         few = len(moving) <= ALL_BODIES or not shaped
@@ -46,13 +48,13 @@ class Parts:
 
     def _owners(self) -> list[int]:
         """Return for each link the link whose frame moves it: the first of its rigid body."""
-        index = {link.name: i for i, link in enumerate(self.model.links)}
+        index = {link.name: i for i, link in enumerate(self.links)}
         owner: list[int | None] = [None] * len(index)
 
         def find(i: int) -> int:
             chain = [i]
             while owner[chain[-1]] is None:
-                joint = self._joint_of.get(self.model.links[chain[-1]].name)
+                joint = self._joint_of.get(self.links[chain[-1]].name)
                 if joint is None:
                     owner[chain[-1]] = WORLD
                 elif joint.type is not JointType.fixed:
@@ -70,13 +72,14 @@ class Parts:
     def poses(self, q: Array) -> Array:
         """Return position and quaternion x y z w of each body, shape (rows, bodies, 7)."""
         poses = np.empty((len(q), len(self.bodies), 7))
+        q = np.asfortranarray(q)  # as the compiled part has it: no copy for each body
         for number, link in enumerate(self.bodies):
             poses[:, number] = seven(self.model.poses(q, link))
         return poses
 
     def described(self) -> dict[str, Any]:
         """Return the parts for the page."""
-        names = [self.model.links[link].name for link in self.bodies]
+        names = [self.links[link].name for link in self.bodies]
         items = [*self._shapes(), *self._visuals()]
         return {
             "bodies": names,
@@ -95,14 +98,14 @@ class Parts:
 
     def _shapes(self) -> list[dict[str, Any]]:
         items = []
-        for i, placed in enumerate(self.model.shapes):
+        for i, placed in enumerate(self.shapes):
             X_WS = self.model.shape_poses(self._rest, i)[0]
             body, X_BS = self._in_body(placed.link, X_WS)
             geometry, scale = self.geometries.add(placed.shape)
             items.append(
                 {
                     "name": placed.name,
-                    "link": self.model.links[placed.link].name,
+                    "link": self.links[placed.link].name,
                     "body": body,
                     "kind": "collision",
                     "geometry": geometry,
@@ -136,7 +139,7 @@ class Parts:
 
     def _frames(self) -> list[dict[str, Any]]:
         frames = []
-        for i, link in enumerate(self.model.links):
+        for i, link in enumerate(self.links):
             body, X_BL = self._in_body(i, self._links[i])
             if body is not None:
                 pose = seven(X_BL[np.newaxis])[0].tolist()
@@ -151,7 +154,7 @@ class Parts:
         """
         rows: list[list[float]] = []
         shaped = set()
-        for i, placed in enumerate(self.model.shapes):
+        for i, placed in enumerate(self.shapes):
             body, X_BS = self._in_body(placed.link, self.model.shape_poses(self._rest, i)[0])
             if body is None or body == WORLD or isinstance(placed.shape, HalfSpace):
                 continue
@@ -160,7 +163,7 @@ class Parts:
                 far = np.linalg.norm(X_BS[:3, 3]) > 1.05 * bounding_radius(placed.shape)
                 if far:
                     rows.append([body, 0.0, 0.0, 0.0, *X_BS[:3, 3]])
-        for joint in self.model.joints:
+        for joint in self.joints:
             body, X_BJ = self._in_body(
                 self.model.link(joint.parent).index,
                 self._links[self.model.link(joint.child).index],
@@ -174,7 +177,7 @@ class Parts:
 
     def _turns(self, link: int) -> bool:
         """Whether the joint that carries a link turns it about the origin of its frame."""
-        return self._joint_of[self.model.links[link].name].type in TURNING
+        return self._joint_of[self.links[link].name].type in TURNING
 
 
 def visuals_of(model: Model) -> list[Any]:

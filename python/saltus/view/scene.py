@@ -129,6 +129,7 @@ def _forces(run: Recording, instants: Instants) -> dict[str, Any] | None:
 def _gaps(
     run: Recording, model: Model, instants: Instants, names: Sequence[str] | None
 ) -> dict[str, Any]:
+    placed = model.shapes
     chosen = _named(model, names) if names is not None else _most_used(run, model)
     if names is None:
         chosen = chosen[: max(1, min(MOST_GAPS, MOST_VALUES // len(instants.t)))]
@@ -136,7 +137,7 @@ def _gaps(
     poses = {shape: _poses_of(model, instants.q, shape) for shape in shapes}
     values = np.empty((len(instants.t), len(chosen)))
     for column, (a, b) in enumerate(chosen):
-        one, other = model.shapes[a].shape, model.shapes[b].shape
+        one, other = placed[a].shape, placed[b].shape
         for row in range(len(values)):
             values[row, column] = gap(one, poses[a][row], other, poses[b][row]).phi
     return {"pairs": [_pair_name(model, pair) for pair in chosen], "phi": packed(values)}
@@ -179,5 +180,5 @@ def _most_used(run: Recording, model: Model) -> list[tuple[int, int]]:
             pairs[index[ends[0]], index[ends[1]]] = None
     if model.n_pairs <= 20 * MOST_GAPS:
         pairs.update(dict.fromkeys((pair.a, pair.b) for pair in model.pairs))
-    known = (p for p in pairs if has_gap(model.shapes[p[0]].shape, model.shapes[p[1]].shape))
-    return list(known)
+    shapes = [placed.shape for placed in model.shapes]
+    return [(a, b) for a, b in pairs if has_gap(shapes[a], shapes[b])]
