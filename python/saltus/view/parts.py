@@ -13,6 +13,7 @@ from saltus.view.shapes import Geometries, bounding_radius
 
 WORLD = -1  # the body that stands still
 ALL_BODIES = 400  # larger models have only those with shapes; their massless links are not told
+MOST_MATRICES = 100_000  # at once: 13 MB
 TURNING = (JointType.revolute, JointType.continuous, JointType.spherical, JointType.helical)
 
 
@@ -35,11 +36,12 @@ class Parts:
         # Asked once: each time the model makes these lists anew.
         self.links, self.shapes, self.joints = model.links, model.shapes, model.joints
         self._rest = model.neutral()[np.newaxis]
-        self._links = [model.poses(self._rest, i)[0] for i in range(len(self.links))]
+        self._links = model.all_poses(self._rest)[0]
+        self._placed = model.all_shape_poses(self._rest)[0]
         self._joint_of = {joint.child: joint for joint in self.joints}
         owner = self._owners()
         shaped = {owner[s.link] for s in self.shapes} - {WORLD}
-        shaped |= {owner[model.link(v.link)] for v in visuals_of(model)} - {WORLD}
+        shaped |= {owner[model.link(v.link)] for v in model.visuals} - {WORLD}
         moving = [i for i in range(len(owner)) if owner[i] == i]
         few = len(moving) <= ALL_BODIES or not shaped
         self.bodies = moving if few else [i for i in moving if i in shaped]
@@ -72,9 +74,11 @@ class Parts:
     def poses(self, q: Array) -> Array:
         """Return position and quaternion x y z w of each body, shape (rows, bodies, 7)."""
         poses = np.empty((len(q), len(self.bodies), 7))
-        q = np.asfortranarray(q)  # as the compiled part has it: no copy for each body
-        for number, link in enumerate(self.bodies):
-            poses[:, number] = seven(self.model.poses(q, link))
+        rows = max(1, MOST_MATRICES // max(1, len(self.links)))
+        for first in range(0, len(q), rows):
+            part = self.model.all_poses(q[first : first + rows])[:, self.bodies]
+            sevens = seven(part.reshape(-1, 4, 4))
+            poses[first : first + rows] = sevens.reshape(len(part), -1, 7)
         return poses
 
     def described(self) -> dict[str, Any]:
@@ -99,8 +103,7 @@ class Parts:
     def _shapes(self) -> list[dict[str, Any]]:
         items = []
         for i, placed in enumerate(self.shapes):
-            X_WS = self.model.shape_poses(self._rest, i)[0]
-            body, X_BS = self._in_body(placed.link, X_WS)
+            body, X_BS = self._in_body(placed.link, self._placed[i])
             geometry, scale = self.geometries.add(placed.shape)
             items.append(
                 {
@@ -117,7 +120,7 @@ class Parts:
 
     def _visuals(self) -> list[dict[str, Any]]:
         items = []
-        for number, visual in enumerate(visuals_of(self.model)):
+        for number, visual in enumerate(self.model.visuals):
             link = self.model.link(visual.link).index
             body, X_BG = self._in_body(link, self._links[link] @ visual.X_LG.matrix())
             geometry, scale = self.geometries.add(visual.shape)
@@ -155,7 +158,7 @@ class Parts:
         rows: list[list[float]] = []
         shaped = set()
         for i, placed in enumerate(self.shapes):
-            body, X_BS = self._in_body(placed.link, self.model.shape_poses(self._rest, i)[0])
+            body, X_BS = self._in_body(placed.link, self._placed[i])
             if body is None or body == WORLD or isinstance(placed.shape, HalfSpace):
                 continue
             shaped.add(body)
@@ -180,16 +183,11 @@ class Parts:
         return self._joint_of[self.links[link].name].type in TURNING
 
 
-def visuals_of(model: Model) -> list[Any]:
-    """Return the visuals of a model, none where its file has none."""
-    return list(getattr(model, "visuals", ()))
-
-
 def shapeless(model: Model) -> str:
     """Return what a viewer must know of a model without shapes, "" of others."""
     if model.shapes:
         return ""
-    if visuals_of(model):
+    if model.visuals:
         return "This model has visuals but no collision shapes: nothing can touch."
     return "This model has no shapes: its joints and frames are drawn."
 
