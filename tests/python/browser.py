@@ -120,6 +120,7 @@ class Tab:
 
     def ready(self) -> Tab:
         """Wait until the page of a run is built."""
+        until(lambda: self.run("typeof window.saltus") == "object")  # unpacked in its own time
         self.run("window.saltus.ready.then(() => 0)")
         return self
 

@@ -15,7 +15,7 @@ from tests.conftest import ROOT
 
 import saltus
 from saltus.view.live import Live
-from saltus.view.pull import Pull, pulled
+from saltus.view.pull import FIRM, PULL, Pull, force_of
 from saltus.view.sliders import sliders_of
 
 URDF = ROOT / "urdf"
@@ -94,11 +94,11 @@ def test_a_body_is_pulled_with_the_mouse(browser, tmp_path):
         until(lambda: tab.run("saltus.page.live.frames") > 5)
         x, y, _ = tab.run("saltus.project([0, 0, 0.1])")
         tab.mouse("mousePressed", x, y, buttons=1)
-        tab.mouse("mouseMoved", x, y - 150, buttons=1)
+        tab.mouse("mouseMoved", x, y - 280, buttons=1)
         height = "saltus.poses()[0][1][2]"
         until(lambda: tab.run(height) > 0.12)  # it hangs on the point
         until(lambda: tab.run("saltus.page.live.thread.visible"))
-        tab.mouse("mouseReleased", x, y - 150)
+        tab.mouse("mouseReleased", x, y - 280)
         until(lambda: tab.run(height) < 0.105)  # it lies on the floor again
         until(lambda: any(a["kind"] == "force" for a in tab.run("saltus.arrows()")))
         assert tab.problems == []
@@ -157,28 +157,39 @@ def test_what_cannot_be_is_refused_in_words_and_changes_nothing():
     assert live.state.q[0] == 0.5
 
 
-def test_a_pull_gives_its_impulse_to_the_point():
-    # Of one free ball the spring's force is known: f = m w^2 x, for h a momentum of h f.
-    model = saltus.ModelBuilder().set_gravity((0, 0, 0)).add_body("b", saltus.Sphere(0.1), mass=2.0)
-    model = model.build()
+def test_a_pull_is_a_spring_as_stiff_as_the_body_is_heavy():
+    # Of one free ball the force is known: f = m w^2 x.
+    builder = saltus.ModelBuilder().set_gravity((0, 0, 0))
+    model = builder.add_body("b", saltus.Sphere(0.1), mass=2.0).build()
     state = model.state()
-    new = pulled(model, state, Pull(1, np.zeros(3), np.array([0.1, 0, 0])), 0.01)
-    from saltus.view.pull import FIRM, PULL
-
-    np.testing.assert_allclose(
-        np.array(new.p)[:3], [0.01 * 2.0 / (1 + FIRM) * PULL**2 * 0.1, 0, 0], rtol=1e-12, atol=1e-15
-    )
+    pull = Pull(1, np.zeros(3), np.array([0.1, 0, 0]))
+    force = force_of(model, state, pull).force
+    np.testing.assert_allclose(force, [2.0 / (1 + FIRM) * PULL**2 * 0.1, 0, 0], atol=1e-12)
+    stepper = saltus.Stepper(model, 0.01)
     for _ in range(300):
-        state = pulled(model, state, Pull(1, np.zeros(3), np.array([0.1, 0, 0])), 0.01)
-        state = saltus.Stepper(model, 0.01).advance(state)
+        state = stepper.advance(state, forces={"b": force_of(model, state, pull)})
     np.testing.assert_allclose(model.pose(state.q, "b").p, [0.1, 0, 0], atol=1e-6)
+
+
+def test_controls_are_told_to_actuators():
+    builder = saltus.read_urdf(URDF / "double_pendulum.urdf").set_gravity((0, 0, 0))
+    model = builder.add_motor("push", joint="elbow", effort=3.0).build()
+    live = Live(model, model.state(), h=0.01)
+    assert [c["name"] for c in live.scene["controls"]] == ["push"]
+    ask(live, do="control", actuator=0, value=1.0)
+    ask(live, do="step")
+    assert live.state.p[1] == pytest.approx(0.01, rel=1e-3)  # the torque for one step
+    with pytest.raises(saltus.ModelError, match="IndexError"):
+        ask(live, do="control", actuator=1, value=1.0)
+    ask(live, do="reset")
+    assert json.loads(live.frame[1])["control"] == [0.0]
 
 
 def test_a_step_that_fails_pauses_and_says_why(monkeypatch):
     model = model_of("double_pendulum")
     live = Live(model, model.state({"shoulder": 0.5}), h=0.01)
 
-    def fails(_: saltus.State) -> saltus.State:
+    def fails(_: saltus.State, **__: object) -> saltus.State:
         raise saltus.StepError("no step")
 
     class Broken:

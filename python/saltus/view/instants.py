@@ -136,7 +136,7 @@ class _Places:
         on_row = run.t[row] >= t - MERGED
         state, after = (run.state(row), float(run.total[row])) if on_row else self._stepped(row, t)
         q = self._between(row, t) if state is None else state.q
-        # The energy is constant between impacts: it is that of the row or the impact before.
+        # Within a step the energy changes little but at impacts: it is that of the row before.
         row_before = row - 1 if on_row and row else row
         same_step = self.last[0] == row_before
         before = self.last[1] if same_step else float(run.total[row_before])
@@ -155,13 +155,14 @@ class _Places:
             return None, None
         self.steps_left -= int(whole) + 1
         impacts: list[Impact] = []
+        control = run.control[row] if self.model.n_u else None  # in all steps up to the next row
         try:
             for step, count in ((h, int(whole)), (rest, 1)):
                 if count == 0 or step < 1e-9 * h:
                     continue
                 stepper = self._stepper(step)
                 for _ in range(count):
-                    state = stepper.advance(state)
+                    state = stepper.advance(state, control=control)
                     impacts = stepper.report.impacts
         except (ModelError, StepError):
             return None, None  # as where the law was a function that the file does not hold

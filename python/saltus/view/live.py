@@ -12,15 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from saltus._core import Model, ModelError, State, StepError, Stepper, __version__
-from saltus.view.arrays import packed
+from saltus._core import Model, ModelError, State, StepError, Stepper
 from saltus.view.page import LIVE_POLICY, page_of
-from saltus.view.parts import Parts, shapeless
-from saltus.view.pull import Pull, pulled
+from saltus.view.parts import Parts
+from saltus.view.pull import Pull, force_of
+from saltus.view.scene import scene_of_model
 from saltus.view.server import PageServer
-from saltus.view.sliders import posture, sliders_of
+from saltus.view.sliders import controls_of, posture, sliders_of
 
 FRAME = 1 / 60  # s between frames
+BREATH = 0.002  # s between frames at least, in which others get the lock
 QUIET = 0.5  # s without news, after which a stream shows that it lives
 GRACE = 2.0  # s without a page until the server ends: a page may be loaded anew
 MOST_LATE = 0.1  # s that are made up for; what a slow model is later than that is dropped
@@ -40,18 +41,22 @@ class Live:
         self.model, self.start, self.state, self.h = model, state, state, h
         self.stepper = Stepper(model, h)
         self.parts = Parts(model)
-        self.scene = _scene(model, self.parts, state, h)
+        self.scene = scene_of_model(model, self.parts, state, h)
         self.sliders = sliders_of(model, reach=max(1.0, _size(self.parts, state)))
         self.scene["sliders"] = [
             {"name": s.name, "unit": s.unit, "lower": s.lower, "upper": s.upper}
             for s in self.sliders
         ]
+        self.scene["controls"] = controls_of(model)
         self.playing = True
         self.speed = 1.0
         self.pull: Pull | None = None
+        self.pulled = ""  # name of its link
+        self.control = np.zeros(model.n_u)
         self.problem = ""
         self.impulses: list[list[Any]] = []
         self.lock = threading.Lock()
+        self.asking = threading.Event()
         self.news = threading.Condition()
         self.frame = (0, b"")
         self.pages = 0
@@ -63,6 +68,7 @@ class Live:
             "reset": lambda _: self._reset(),
             "speed": self._set_speed,
             "set": self._set,
+            "control": self._control,
             "pull": self._pull,
             "release": lambda _: self._release(),
         }
@@ -80,7 +86,9 @@ class Live:
             raise ModelError(
                 f"the page asked for {body[:80]!r}; there are {', '.join(self.actions)}"
             ) from None
+        self.asking.set()  # the steps let wishes go first, however late they are
         with self.lock:
+            self.asking.clear()
             try:
                 action(asked)
             except (KeyError, TypeError, IndexError) as error:
@@ -104,7 +112,7 @@ class Live:
             last = now
             if moved:
                 self.tell()
-            time.sleep(max(0.0, FRAME - (time.monotonic() - now)))
+            time.sleep(max(BREATH, FRAME - (time.monotonic() - now)))
 
     def tell(self) -> None:
         """Give all pages the state as it is."""
@@ -149,16 +157,16 @@ class Live:
         while owed - made >= self.h and self.playing:
             self._advance()
             made += self.h
-            if time.monotonic() > end:
+            if time.monotonic() > end or self.asking.is_set():
                 break
         return made
 
     def _advance(self) -> None:
-        start = self.state
         try:
+            forces = None
             if self.pull is not None:
-                start = pulled(self.model, start, self.pull, self.h)
-            self.state = self.stepper.advance(start)
+                forces = {self.pulled: force_of(self.model, self.state, self.pull)}
+            self.state = self.stepper.advance(self.state, control=self.control, forces=forces)
         except (StepError, ModelError) as error:
             self.playing = False
             self.problem = f"stopped: {error}"
@@ -189,6 +197,7 @@ class Live:
                 "playing": self.playing,
                 "speed": self.speed,
                 "values": [slider.get(q) for slider in self.sliders],
+                "control": self.control.tolist(),
                 "arrows": self.impulses[-200:] + held[:200],
                 "problem": self.problem,
                 "sent": time.time(),
@@ -205,6 +214,7 @@ class Live:
 
     def _reset(self) -> None:
         self.state, self.pull, self.problem = self.start, None, ""
+        self.control[:] = 0
 
     def _set_speed(self, asked: dict[str, Any]) -> None:
         self.speed = float(np.clip(float(asked["value"]), *SPEEDS))
@@ -215,12 +225,18 @@ class Live:
         Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
         self.state, self.problem = state, ""
 
+    def _control(self, asked: dict[str, Any]) -> None:
+        value = float(asked["value"])
+        if not np.isfinite(value):
+            raise ModelError(f"control = {value:g}; it is a number")
+        self.control[int(asked["actuator"])] = value
+
     def _pull(self, asked: dict[str, Any]) -> None:
         link = self.parts.bodies[int(asked["body"])]
         at, to = (np.array(asked[name], float) for name in ("at", "to"))
         if at.shape != (3,) or to.shape != (3,) or not np.isfinite([at, to]).all():
             raise ModelError("pull: two points of three numbers are to be given")
-        self.pull = Pull(link, at, to)
+        self.pull, self.pulled = Pull(link, at, to), self.model.links[link].name
 
     def _release(self) -> None:
         self.pull = None
@@ -249,43 +265,6 @@ def serve(model: Model, state: State, *, h: float, opened: Callable[[str], None]
         live.tell()
         opened(server.url)
         live.run(live.is_left)
-
-
-def _scene(model: Model, parts: Parts, state: State, h: float) -> dict[str, Any]:
-    q = np.asarray(state.q)[np.newaxis]
-    none = packed(np.zeros(0), "f8")
-    whole = packed(np.zeros(0), "i4")
-    return {
-        "version": __version__,
-        "mode": "live",
-        "title": model.name,
-        "summary": f"live, h = {h:.3g} s; closing the page ends it",
-        "notices": [text for text in [shapeless(model)] if text],
-        "gravity": model.gravity.tolist(),
-        "h": h,
-        **parts.described(),
-        "t": packed([state.t], "f8"),
-        "poses": packed(parts.poses(q)),
-        "kinetic": packed([model.kinetic_energy(state)], "f8"),
-        "potential": packed([model.potential_energy(q[0])], "f8"),
-        "impacts": {
-            "t": none,
-            "instant": whole,
-            "kinetic_before": none,
-            "first": packed([0], "i4"),
-            "certificates": [],
-        },
-        "impulses": {
-            "pairs": [],
-            "pair": whole,
-            "lambda": none,
-            "point": none,
-            "normal": none,
-            "vector": none,
-        },
-        "forces": None,
-        "gaps": {"pairs": [], "phi": none},
-    }
 
 
 def _size(parts: Parts, state: State) -> float:

@@ -13,6 +13,7 @@ from saltus.view.shapes import Geometries, bounding_radius
 
 WORLD = -1  # the body that stands still
 ALL_BODIES = 400  # larger models have only those with shapes; their massless links are not told
+MOST_MATRICES = 100_000  # at once: 13 MB
 TURNING = (JointType.revolute, JointType.continuous, JointType.spherical, JointType.helical)
 
 
@@ -32,12 +33,15 @@ class Parts:
     def __init__(self, model: Model) -> None:
         self.model = model
         self.geometries = Geometries()
+        # Asked once: each time the model makes these lists anew.
+        self.links, self.shapes, self.joints = model.links, model.shapes, model.joints
         self._rest = model.neutral()[np.newaxis]
-        self._links = [model.poses(self._rest, i)[0] for i in range(len(model.links))]
-        self._joint_of = {joint.child: joint for joint in model.joints}
+        self._links = model.all_poses(self._rest)[0]
+        self._placed = model.all_shape_poses(self._rest)[0]
+        self._joint_of = {joint.child: joint for joint in self.joints}
         owner = self._owners()
-        shaped = {owner[s.link] for s in model.shapes} - {WORLD}
-        shaped |= {owner[model.link(v.link)] for v in visuals_of(model)} - {WORLD}
+        shaped = {owner[s.link] for s in self.shapes} - {WORLD}
+        shaped |= {owner[model.link(v.link)] for v in model.visuals} - {WORLD}
         moving = [i for i in range(len(owner)) if owner[i] == i]
         few = len(moving) <= ALL_BODIES or not shaped
         self.bodies = moving if few else [i for i in moving if i in shaped]
@@ -46,13 +50,13 @@ class Parts:
 
     def _owners(self) -> list[int]:
         """Return for each link the link whose frame moves it: the first of its rigid body."""
-        index = {link.name: i for i, link in enumerate(self.model.links)}
+        index = {link.name: i for i, link in enumerate(self.links)}
         owner: list[int | None] = [None] * len(index)
 
         def find(i: int) -> int:
             chain = [i]
             while owner[chain[-1]] is None:
-                joint = self._joint_of.get(self.model.links[chain[-1]].name)
+                joint = self._joint_of.get(self.links[chain[-1]].name)
                 if joint is None:
                     owner[chain[-1]] = WORLD
                 elif joint.type is not JointType.fixed:
@@ -70,13 +74,16 @@ class Parts:
     def poses(self, q: Array) -> Array:
         """Return position and quaternion x y z w of each body, shape (rows, bodies, 7)."""
         poses = np.empty((len(q), len(self.bodies), 7))
-        for number, link in enumerate(self.bodies):
-            poses[:, number] = seven(self.model.poses(q, link))
+        rows = max(1, MOST_MATRICES // max(1, len(self.links)))
+        for first in range(0, len(q), rows):
+            part = self.model.all_poses(q[first : first + rows])[:, self.bodies]
+            sevens = seven(part.reshape(-1, 4, 4))
+            poses[first : first + rows] = sevens.reshape(len(part), -1, 7)
         return poses
 
     def described(self) -> dict[str, Any]:
         """Return the parts for the page."""
-        names = [self.model.links[link].name for link in self.bodies]
+        names = [self.links[link].name for link in self.bodies]
         items = [*self._shapes(), *self._visuals()]
         return {
             "bodies": names,
@@ -95,14 +102,13 @@ class Parts:
 
     def _shapes(self) -> list[dict[str, Any]]:
         items = []
-        for i, placed in enumerate(self.model.shapes):
-            X_WS = self.model.shape_poses(self._rest, i)[0]
-            body, X_BS = self._in_body(placed.link, X_WS)
+        for i, placed in enumerate(self.shapes):
+            body, X_BS = self._in_body(placed.link, self._placed[i])
             geometry, scale = self.geometries.add(placed.shape)
             items.append(
                 {
                     "name": placed.name,
-                    "link": self.model.links[placed.link].name,
+                    "link": self.links[placed.link].name,
                     "body": body,
                     "kind": "collision",
                     "geometry": geometry,
@@ -114,7 +120,7 @@ class Parts:
 
     def _visuals(self) -> list[dict[str, Any]]:
         items = []
-        for number, visual in enumerate(visuals_of(self.model)):
+        for number, visual in enumerate(self.model.visuals):
             link = self.model.link(visual.link).index
             body, X_BG = self._in_body(link, self._links[link] @ visual.X_LG.matrix())
             geometry, scale = self.geometries.add(visual.shape)
@@ -136,7 +142,7 @@ class Parts:
 
     def _frames(self) -> list[dict[str, Any]]:
         frames = []
-        for i, link in enumerate(self.model.links):
+        for i, link in enumerate(self.links):
             body, X_BL = self._in_body(i, self._links[i])
             if body is not None:
                 pose = seven(X_BL[np.newaxis])[0].tolist()
@@ -151,8 +157,8 @@ class Parts:
         """
         rows: list[list[float]] = []
         shaped = set()
-        for i, placed in enumerate(self.model.shapes):
-            body, X_BS = self._in_body(placed.link, self.model.shape_poses(self._rest, i)[0])
+        for i, placed in enumerate(self.shapes):
+            body, X_BS = self._in_body(placed.link, self._placed[i])
             if body is None or body == WORLD or isinstance(placed.shape, HalfSpace):
                 continue
             shaped.add(body)
@@ -160,7 +166,7 @@ class Parts:
                 far = np.linalg.norm(X_BS[:3, 3]) > 1.05 * bounding_radius(placed.shape)
                 if far:
                     rows.append([body, 0.0, 0.0, 0.0, *X_BS[:3, 3]])
-        for joint in self.model.joints:
+        for joint in self.joints:
             body, X_BJ = self._in_body(
                 self.model.link(joint.parent).index,
                 self._links[self.model.link(joint.child).index],
@@ -174,19 +180,14 @@ class Parts:
 
     def _turns(self, link: int) -> bool:
         """Whether the joint that carries a link turns it about the origin of its frame."""
-        return self._joint_of[self.model.links[link].name].type in TURNING
-
-
-def visuals_of(model: Model) -> list[Any]:
-    """Return the visuals of a model, none where its file has none."""
-    return list(getattr(model, "visuals", ()))
+        return self._joint_of[self.links[link].name].type in TURNING
 
 
 def shapeless(model: Model) -> str:
     """Return what a viewer must know of a model without shapes, "" of others."""
     if model.shapes:
         return ""
-    if visuals_of(model):
+    if model.visuals:
         return "This model has visuals but no collision shapes: nothing can touch."
     return "This model has no shapes: its joints and frames are drawn."
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saltus._core import Model, State
+from saltus._core import Model, State, Wrench
 from saltus.records.tables import Array
 
 PULL = 16.0  # rad/s: the point follows within an eighth of a second; its weight keeps it 4 cm below
@@ -32,8 +32,8 @@ class Pull:
     to: Array
 
 
-def pulled(model: Model, state: State, pull: Pull, h: float) -> State:
-    """Return a state with the momentum that the spring gives in a step: p + h J^T f.
+def force_of(model: Model, state: State, pull: Pull) -> Wrench:
+    """Return the force of the spring on its point.
 
     The spring is as stiff as the body is heavy at its point: f = L (w^2 x - 2 w v), where x is the
     way to the mouse, v the point's velocity, and L^-1 = J M^-1 J^T its mobility. Whatever is
@@ -44,33 +44,20 @@ def pulled(model: Model, state: State, pull: Pull, h: float) -> State:
     model : Model
     state : State
     pull : Pull
-    h : float
-        [s]
 
     Returns
     -------
-    State
+    Wrench
+        [N]
     """
-    q = np.asarray(state.q)
-    X = model.pose(q, pull.link)
-    arm = X.R @ pull.at
-    v = np.asarray(model.velocity(state))
-    J = _jacobian(model, q, pull.link, arm)
-    way = PULL**2 * (pull.to - X.p - arm) - 2 * PULL * (J @ v)
+    frames = model.at(state.q)
+    J = frames.jacobian(pull.link, pull.at)
+    way = PULL**2 * (pull.to - frames.pose(pull.link) * pull.at)
+    way -= 2 * PULL * (J @ model.velocity(state))
     if model.n_v > MOST_VELOCITIES:
-        force = model.links[pull.link].mass * way
-    else:
-        mobility = J @ np.linalg.solve(model.mass_matrix(q), J.T)
-        firm = FIRM * np.trace(mobility) / 3 * np.eye(3)
-        if not firm.any():
-            return state  # nothing moves the point
-        force = np.linalg.solve(mobility + firm, way)
-    return State(state.t, q, np.asarray(state.p) + h * J.T @ force)
-
-
-def _jacobian(model: Model, q: Array, link: int, arm: Array) -> Array:
-    """Return J of a point of a link, shape (3, n_v): its velocity is J v."""
-    unit = np.eye(model.n_v)
-    twists = model.velocities(np.tile(q, (model.n_v, 1)), unit, link)
-    J: Array = (twists[:, 3:] + np.cross(twists[:, :3], arm)).T
-    return J
+        return Wrench(model.links[pull.link].mass * way, point=pull.at)
+    mobility = J @ np.linalg.solve(frames.mass_matrix(), J.T)
+    firm = FIRM * np.trace(mobility) / 3 * np.eye(3)
+    if not firm.any():
+        return Wrench()  # nothing moves the point
+    return Wrench(np.linalg.solve(mobility + firm, way), point=pull.at)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from saltus._core import Model, ModelError, Pose, __version__, gap, has_gap
+from saltus._core import Model, ModelError, Pose, State, __version__, gap, has_gap
 from saltus.records.recording import Recording
 from saltus.records.tables import Array, counted
 from saltus.view.arrays import packed
@@ -60,6 +60,59 @@ def scene_of_run(run: Recording, *, pairs: Sequence[str] | None = None) -> dict[
         **_impacts(run, instants),
         "forces": _forces(run, instants),
         "gaps": _gaps(run, model, instants, pairs),
+    }
+
+
+def scene_of_model(model: Model, parts: Parts, state: State, h: float) -> dict[str, Any]:
+    """Return what a live page shows at its start: a model in a state, and nothing that happened.
+
+    Parameters
+    ----------
+    model : Model
+    parts : Parts
+        Of the model.
+    state : State
+    h : float
+        [s] the time step, which is told.
+
+    Returns
+    -------
+    dict
+        For `json.dumps`.
+    """
+    q = np.asarray(state.q)[np.newaxis]
+    none = packed(np.zeros(0), "f8")
+    whole = packed(np.zeros(0), "i4")
+    return {
+        "version": __version__,
+        "mode": "live",
+        "title": model.name,
+        "summary": f"live, h = {h:.3g} s; closing the page ends it",
+        "notices": [text for text in [shapeless(model)] if text],
+        "gravity": model.gravity.tolist(),
+        "h": h,
+        **parts.described(),
+        "t": packed([state.t], "f8"),
+        "poses": packed(parts.poses(q)),
+        "kinetic": packed([model.kinetic_energy(state)], "f8"),
+        "potential": packed([model.potential_energy(q[0])], "f8"),
+        "impacts": {
+            "t": none,
+            "instant": whole,
+            "kinetic_before": none,
+            "first": packed([0], "i4"),
+            "certificates": [],
+        },
+        "impulses": {
+            "pairs": [],
+            "pair": whole,
+            "lambda": none,
+            "point": none,
+            "normal": none,
+            "vector": none,
+        },
+        "forces": None,
+        "gaps": {"pairs": [], "phi": none},
     }
 
 
@@ -129,6 +182,7 @@ def _forces(run: Recording, instants: Instants) -> dict[str, Any] | None:
 def _gaps(
     run: Recording, model: Model, instants: Instants, names: Sequence[str] | None
 ) -> dict[str, Any]:
+    placed = model.shapes
     chosen = _named(model, names) if names is not None else _most_used(run, model)
     if names is None:
         chosen = chosen[: max(1, min(MOST_GAPS, MOST_VALUES // len(instants.t)))]
@@ -136,7 +190,7 @@ def _gaps(
     poses = {shape: _poses_of(model, instants.q, shape) for shape in shapes}
     values = np.empty((len(instants.t), len(chosen)))
     for column, (a, b) in enumerate(chosen):
-        one, other = model.shapes[a].shape, model.shapes[b].shape
+        one, other = placed[a].shape, placed[b].shape
         for row in range(len(values)):
             values[row, column] = gap(one, poses[a][row], other, poses[b][row]).phi
     return {"pairs": [_pair_name(model, pair) for pair in chosen], "phi": packed(values)}
@@ -179,5 +233,5 @@ def _most_used(run: Recording, model: Model) -> list[tuple[int, int]]:
             pairs[index[ends[0]], index[ends[1]]] = None
     if model.n_pairs <= 20 * MOST_GAPS:
         pairs.update(dict.fromkeys((pair.a, pair.b) for pair in model.pairs))
-    known = (p for p in pairs if has_gap(model.shapes[p[0]].shape, model.shapes[p[1]].shape))
-    return list(known)
+    shapes = [placed.shape for placed in model.shapes]
+    return [(a, b) for a, b in pairs if has_gap(shapes[a], shapes[b])]

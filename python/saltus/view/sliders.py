@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from saltus._core import JointType, Model, ModelError, Pose, State
 from saltus.records.tables import Array
 
+CONTROL = 10.0
 ANGLES = ("roll", "pitch", "yaw")
 
 
@@ -57,6 +59,20 @@ def sliders_of(model: Model, *, reach: float) -> list[Slider]:
                 _angle(joint.name, ball, k, list(joint.velocities)) for k in range(len(ANGLES))
             ]
     return _once(sliders)
+
+
+def controls_of(model: Model) -> list[dict[str, Any]]:
+    """Return name and range of each actuator's control, for the page.
+
+    A control may be a force, a target of a servo, or anything else that the model's author chose:
+    where it has no limits, the slider goes from -10 to 10.
+    """
+    ranges = []
+    for name, (lower, upper) in zip(model.control_names, model.control_limits, strict=True):
+        low = float(lower) if math.isfinite(lower) else -CONTROL
+        high = float(upper) if math.isfinite(upper) else CONTROL
+        ranges.append({"name": name, "unit": "", "lower": min(low, 0.0), "upper": max(high, 0.0)})
+    return ranges
 
 
 def posture(model: Model, state: State, slider: Slider, value: float) -> State:

@@ -84,18 +84,25 @@ class Live {
   }
 
   sliders() {
-    this.inputs = this.page.data.sliders.map(({ name, unit, lower, upper }, i) => {
-      const label = document.createElement('label');
-      const input = document.createElement('input');
-      const output = document.createElement('output');
-      label.textContent = name;
-      label.htmlFor = input.id = `slider-${i}`;
-      Object.assign(input, { type: 'range', min: lower, max: upper, step: 'any' });
-      input.oninput = () => this.wish({ do: 'set', slider: i, value: Number(input.value) });
-      $('sliders').append(label, input, output);
-      return { input, output, unit };
-    });
-    if (!this.inputs.length) $('sliders').textContent = 'This model has no joints that move.';
+    const { sliders, controls } = this.page.data;
+    const set = (slider, value) => this.wish({ do: 'set', slider, value });
+    const tell = (actuator, value) => this.wish({ do: 'control', actuator, value });
+    this.inputs = sliders.map((slider, i) => this.slider($('sliders'), `slider-${i}`, slider, (x) => set(i, x)));
+    this.controls = controls.map((c, i) => this.slider($('controls'), `control-${i}`, c, (x) => tell(i, x)));
+    $('controls-title').hidden = !controls.length;
+    if (!sliders.length) $('sliders').textContent = 'This model has no joints that move.';
+  }
+
+  slider(where, id, { name, unit, lower, upper }, changed) {
+    const label = document.createElement('label');
+    const input = document.createElement('input');
+    const output = document.createElement('output');
+    label.textContent = name;
+    label.htmlFor = input.id = id;
+    Object.assign(input, { type: 'range', min: lower, max: upper, step: 'any' });
+    input.oninput = () => changed(Number(input.value));
+    where.append(label, input, output);
+    return { input, output, unit };
   }
 
   frame(news) {
@@ -110,7 +117,8 @@ class Live {
     Object.assign(clock, { time: news.t, playing: news.playing, speed: news.speed });
     if (changed) page.bar.changed();
     $('play').innerHTML ||= ICONS.pause;
-    this.values(news.values);
+    this.values(this.inputs, news.values);
+    this.values(this.controls, news.control);
     this.energies(news);
     this.arrows(news.arrows);
     if (news.problem && news.problem !== this.problem) page.say(news.problem);
@@ -119,11 +127,11 @@ class Live {
     page.dirty = true;
   }
 
-  values(values) {
+  values(inputs, values) {
     values.forEach((value, i) => {
-      const { input, output, unit } = this.inputs[i];
+      const { input, output, unit } = inputs[i];
       if (!input.matches(':active')) input.value = value;
-      const text = `${value.toFixed(3)} ${unit}`;
+      const text = `${value.toFixed(3)} ${unit}`.trim();
       if (output.textContent !== text) output.textContent = text;
     });
   }
