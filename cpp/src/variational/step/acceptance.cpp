@@ -75,6 +75,14 @@ void Stepper::Impl::check_free_energy() {
   if (std::abs(gain) > 0.3 * std::max({T, T_end, done_size})) fail_energy(gain);
 }
 
+/// Of a step that was made at any price, by what it was before: it may be an error, but no gain.
+void Stepper::Impl::check_step_energy(double start) {
+  if (!set_velocity_at_node(scene, node)) fail(FlightOutcome::not_converged);
+  const double gain = node_energy(scene, node) - start - report.work.sum();
+  kinetic = 0.5 * node.p.dot(node.v);
+  if (gain > 0.3 * std::max(kinetic, report.work.cwiseAbs().sum())) fail_energy(gain);
+}
+
 /// No arc ends with bodies deeper in each other than it started. Where parts come to face each
 /// other that overlap already no shorter arc helps: that is an error where anybody can see it.
 void Stepper::Impl::check_gaps() {

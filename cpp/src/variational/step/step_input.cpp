@@ -38,19 +38,23 @@ void Stepper::Impl::take(const ForceInput& with) {
 void Stepper::Impl::add_work() {
   done = done_size = 0;
   const ArcScratch& s = flight.work.scratch;
-  if (!s.has_forces) return;
   const Arc& arc = flight.work.arc;
-  const auto n = s.forces.effort.size();
+  if (s.has_forces) add_work(arc.tau, arc.v, s.forces, s.wrench_force);
+}
+
+void Stepper::Impl::add_work(double tau, const VecX& v, const ForceValues& forces,
+                             const VecX& wrench_force) {
+  const auto n = forces.effort.size();
   const auto add = [&](Eigen::Index source, double power) {
-    const double each = arc.tau * power;
+    const double each = tau * power;
     report.work[source] += each;
     done += each;
     done_size += std::abs(each);
   };
-  for (Eigen::Index k = 0; k < n; ++k) add(k, s.forces.effort[k] * s.forces.rate[k]);
-  if (scene.model.forces.damping.size() > 0) add(n, s.forces.damping.dot(arc.v));
-  double applied = s.wrench_force.dot(arc.v);
-  if (input.qfrc.size() > 0) applied += input.qfrc.dot(arc.v);
+  for (Eigen::Index k = 0; k < n; ++k) add(k, forces.effort[k] * forces.rate[k]);
+  if (scene.model.forces.damping.size() > 0) add(n, forces.damping.dot(v));
+  double applied = wrench_force.dot(v);
+  if (input.qfrc.size() > 0) applied += input.qfrc.dot(v);
   add(n + 2, applied);
 }
 

@@ -130,7 +130,7 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
 void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
   clear(report);
   start(state, is_own);
-  const double t_start = state.t, h = scene.options.h;
+  const double t_start = state.t, h = scene.options.h, H = node_energy(scene, node);
   int stepped = 0;
   for (double left = h; left > 0;) {
     const StepReport told = report;
@@ -156,6 +156,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
       ++stepped;
     }
   }
+  check_step_energy(H);
   end_step(nullptr);  // an approach at the end is the next step's
   state = last;
 }
@@ -166,6 +167,9 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
   ++report.arcs;
   tell(unlocated.impulses, report);
   report.friction_residual = std::max(report.friction_residual, unlocated.residual);
+  if (unlocated.v_middle.size() > 0) {
+    add_work(tau, unlocated.v_middle, unlocated.forces, unlocated.wrench_force);
+  }
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
   saltus::forget(memory);
 }

@@ -36,7 +36,8 @@ struct Stepper::Impl {
   void step(State& state, const ForceInput& with);
   void take(const ForceInput& with);  // step_input.cpp
   void add_work();                    // likewise
-  void add_dry_work();                // likewise
+  void add_work(double tau, const VecX& v, const ForceValues& forces, const VecX& wrench_force);
+  void add_dry_work();  // likewise
   void step_once(State& state, bool is_own);
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
@@ -55,6 +56,7 @@ struct Stepper::Impl {
   void note_start();
   void check_energy();
   void check_free_energy();
+  void check_step_energy(double start);
   void check_gaps();
   void check_idle_arcs();
   void lift_out();  // lift.cpp

@@ -16,6 +16,37 @@ void evaluate_at(const ModelData& model, const VecX& q, const VecX& p, const Vec
   momentum_residual(model, {q, p, 0}, v, s);
 }
 
+/// The velocity at the arc's end without contacts. Motors and dampers may be stiff: they act in the
+/// arc's middle, which one Newton step of its equation finds.
+void set_free_velocity(const Scene& scene, double tau, Node& node, ArcScratch& s, Unlocated& x) {
+  const ModelData& model = scene.model;
+  evaluate_at(model, node.q, node.p, node.v, s);
+  x.v_free = node.p + tau * s.L_q;
+  x.work = 0;
+  x.v_middle.resize(0);
+  if (s.has_forces) {
+    const ArcProblem problem{node.q, node.p, tau};
+    x.v = node.v;
+    const auto evaluate = [&] { return std::isfinite(momentum_residual(model, problem, x.v, s)); };
+    bool found = evaluate();
+    set_second_partials(model, s);
+    if (found && factorize(model.tree, model.packed, s.w, tau, s.J)) {
+      s.dv = s.r;
+      solve(model.tree, model.packed, s.J, s.dv);
+      x.v += s.dv;
+      found = evaluate();
+    }
+    if (found) {
+      x.v_free = node.p + tau * s.L_q;
+      x.work = tau * s.forces.Q.dot(x.v);
+      x.forces = s.forces;
+      x.wrench_force = s.wrench_force;
+      x.v_middle = x.v;
+    }
+  }
+  solve(model.tree, model.packed, node.M, x.v_free);
+}
+
 void add_cut(const Contact& contact, double offset, Unlocated& x) {
   x.cuts.push_back(contact);
   x.offset.push_back(offset);
@@ -89,7 +120,7 @@ void stop_until_clear(const Scene& scene, double tau, const Node& node, Node& en
 bool set_momenta(const Scene& scene, double tau, double start, Node& end, ArcScratch& arc,
                  Unlocated& x) {
   const double V = potential_energy(scene.model.packed, end.w);
-  const double before = start + (arc.has_forces ? tau * x.force.dot(x.v) : 0);
+  const double before = start + x.work;
   evaluate_at(scene.model, x.q_end, end.p, x.v, arc);
   const double T = 0.5 * x.v.dot(arc.L_v), most = before - V;
   double part = 1;
@@ -127,10 +158,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
   x.residual = 0;
   set_velocity_at_node(scene, node);
   const double before = node_energy(scene, node);
-  evaluate_at(model, node.q, node.p, node.v, arc);
-  x.force = arc.forces.Q;
-  x.v_free = node.p + tau * arc.L_q;
-  solve(model.tree, model.packed, node.M, x.v_free);
+  set_free_velocity(scene, tau, node, arc, x);
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     add_cut(c, std::max(c.phi, 0.0) / tau, x);

@@ -34,7 +34,9 @@ struct Unlocated {
   ContactBlocks W;
   PileScratch pile;
   VecX v_free, v, q_end;
-  VecX force;  ///< (n_v) what drives the step, at its start
+  double work = 0;     ///< [J] what drives the step did in the arc without contacts:
+  ForceValues forces;  ///< in its middle, where the velocity is
+  VecX wrench_force, v_middle;
 };
 
 /// Leaves the node tau later, at time t. `end` is a node that may be used, and `arc` scratch.
