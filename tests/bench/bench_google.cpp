@@ -14,6 +14,7 @@ using namespace saltus;
 
 void register_model(const bench::Job& job) {
   UrdfOptions options;
+  options.effects = JointEffects::none;  // as the peers: bare mechanics
   if (job.floating) options.root_joint = JointType::floating;
   const Model model = load_urdf(job.file, options);
   const int n = model.n_v();

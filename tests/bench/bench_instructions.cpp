@@ -52,21 +52,37 @@ void count_steps_with_an_impact(const Model& model, State state) {
   }
 }
 
+/// Damping and a servo on each joint of one coordinate.
+Model with_servos(ModelBuilder builder) {
+  const std::vector<JointSpec> joints = builder.description().joints;
+  for (const JointSpec& joint : joints) {
+    if (joint.type != JointType::revolute && joint.type != JointType::continuous) continue;
+    builder.set_effects(joint.name, JointEffects::damping | JointEffects::motors);
+    builder.set_damping(joint.name, 0.1);
+    builder.add_position_servo(joint.name, joint.name, 10, 1);
+  }
+  return builder.build();
+}
+
 void run(const std::string& workload, const bench::Job& job) {
   UrdfOptions options;
+  options.effects = JointEffects::none;  // as the peers: bare mechanics
   if (job.floating) options.root_joint = JointType::floating;
-  const Model model = load_urdf(job.file, options);
+  const bool is_driven = workload == "driven";
+  const Model model =
+      is_driven ? with_servos(read_urdf(job.file, options)) : load_urdf(job.file, options);
   const int n = model.n_v();
   const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
   const VecX v = VecX::Constant(n, 0.1);
-  if (workload == "step") {
+  if (workload == "step" || is_driven) {
     count_smooth_steps(model, model.state(q, VecX::Zero(n)));
   } else if (workload == "impact") {
     count_steps_with_an_impact(model, model.state({{"swing_0", job.angle}}));
   } else if (workload == "lagrangian") {
     for (int i = 0; i < calls; ++i) count([&] { model.lagrangian(q, v); });
   } else {
-    throw ModelError("no workload \"" + workload + "\"; workloads are step, impact, lagrangian");
+    throw ModelError("no workload \"" + workload +
+                     "\"; workloads are step, driven, impact, lagrangian");
   }
   std::cout << calls << std::endl;
 }

@@ -129,6 +129,7 @@ void print_dynamics(double budget, const Model& model, const VecX& q, const VecX
 
 void run(double budget, const bench::Job& job) {
   UrdfOptions options;
+  options.effects = JointEffects::none;  // as the peers: bare mechanics
   if (job.floating) options.root_joint = JointType::floating;
   const Model model = load_urdf(job.file, options);
   const int n = model.n_v();

@@ -38,6 +38,8 @@ def workloads() -> dict[str, Workload]:
         "step, chain 8": ("step", scenes.chain(8)),
         "step, chain 32": ("step", scenes.chain(32)),
         "step, humanoid": ("step", robot),
+        "step, chain 32 with servos": ("driven", scenes.chain(32)),
+        "step, humanoid with servos": ("driven", robot),
         "step, free body": ("step", Scene("body", "robot", BODY, 0.3, floating=True)),
         "step, touching cradle of 3": ("step", Scene("cradle 3", "touching", cradle.urdf, 0.1)),
         "step with an impact, cradle of 3": ("impact", cradle),
