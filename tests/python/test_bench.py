@@ -171,6 +171,14 @@ def test_bodies_are_thrown_in_their_benchmark():
     assert found == {"runs": 3, "end": 0, "gain": 0, "sink": 0}
 
 
+def test_dominoes_fall_in_the_benchmark_of_heaps():
+    call = [sys.executable, "-m", "tests.bench.piles", "--scene", "dominoes", "--seconds", "0.1"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+    cells = [cell.strip() for cell in done.stdout.splitlines()[2].split("|")[1:-1]]
+    assert cells[:2] == ["dominoes", "0.1 s"]
+    assert cells[3] == "20"
+
+
 def test_contact_solvers_settle_in_their_benchmark():
     pytest.importorskip("scipy")
     call = [sys.executable, "-m", "tests.bench.contact_solvers", "--count", "2", "--sizes", "4"]

@@ -193,7 +193,7 @@ TEST(ResolveImpact, BadProblemsAreNamed) {
             std::string::npos);
   EXPECT_NE(message([&] { resolve_impact(M, N, v, 1.5); }).find("1.5 of contact 0"),
             std::string::npos);
-  EXPECT_NE(message([&] { resolve_impact(M, N, v, vec({1, 1})); }).find("2 entries; N has 1 rows"),
+  EXPECT_NE(message([&] { resolve_impact(M, N, v, vec({1, 1})); }).find("2 entries; N has 1 row"),
             std::string::npos);
 }
 
