@@ -96,7 +96,8 @@ def load_urdf(
         True: reads what links look like, `Model.visuals`, for pictures; meshes take time.
     inertia : InertiaUse or str
         `checked`: from the file, which must be possible, moments to 2 %; `as_given`: from the file,
-        whatever moments are; `from_shapes`: so, too, and links without a mass are made of water.
+        whatever moments are; `from_shapes`: so, too, and links without a mass are filled with
+        water.
     strict : bool
         True: refuses what is wrong in the file and else read with a warning, as other readers do:
         limits that are missing or crossed, `<mimic>` of what is fixed or not there, sizes of 0,
