@@ -106,11 +106,12 @@ def test_motors_hold_it_still():
 
 def test_pd_control():
     arm, goal = driven_arm(), np.array((0.5, 1.0))
+    kp, kd = np.array((200, 50)), np.array((20, 3))
 
     def policy(now):  # asked before each step
-        return 100 * (goal - now.q) - 20 * now.v - arm.gravity_forces(now.q)
+        return kp * (goal - now.q) - kd * now.v - arm.gravity_forces(now.q)
 
-    run = saltus.simulate(arm, duration=3.0, control=policy)
+    run = saltus.simulate(arm, duration=3.0, h=0.001, control=policy)
     np.testing.assert_allclose(run.q[-1], goal, atol=1e-3)
 
 
