@@ -166,9 +166,9 @@ class _Places:
                     impacts = stepper.report.impacts
         except (ModelError, StepError):
             return None, None  # as where the law was a function that the file does not hold
-        made = bool(impacts) and abs(impacts[-1].t - t) <= MERGED
-        energy = self.model.kinetic_energy(state) + self.model.potential_energy(state.q)
-        return state, energy if made else None
+        if not impacts or abs(impacts[-1].t - t) > MERGED:
+            return None, None  # another motion: forces drove the run that it does not hold
+        return state, self.model.kinetic_energy(state) + self.model.potential_energy(state.q)
 
     def _stepper(self, h: float) -> Stepper:
         own = self.run.options

@@ -152,7 +152,8 @@ export class Arrows {
 function largest(vectors) {
   let most = 0;
   for (let k = 0; vectors && k < vectors.length; k += 3) {
-    most = Math.max(most, Math.hypot(vectors[k], vectors[k + 1], vectors[k + 2]));
+    const size = Math.hypot(vectors[k], vectors[k + 1], vectors[k + 2]);
+    if (size > most) most = size; // older files have NaN
   }
   return most;
 }
