@@ -1,7 +1,7 @@
 """A quadruped stands on a floor for 2 s, its knees locked, and a parcel lies on its trunk.
 
-Nothing moves: four feet bear 12 kg, four corners of the parcel 2 kg. (Joints have no motors or
-springs yet, and the floor is given no friction: it stands as a table does on ice.)
+Nothing moves: four feet bear 12 kg, four corners of the parcel 2 kg. The floor is given no
+friction: it stands as a table does on ice. In stands_up.py it has servos.
 """
 
 import saltus

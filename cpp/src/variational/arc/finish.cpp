@@ -163,8 +163,11 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
 
 HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
   const auto pairs = static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
-  const std::size_t reserved = std::min<std::size_t>(pairs, 64);
-  const std::size_t boxes = std::min<std::size_t>(pairs, 16);
+  const auto dry = static_cast<std::size_t>(scene.model.forces.friction.size());
+  const std::size_t reserved = std::min<std::size_t>(pairs, 64) + dry;
+  const std::size_t boxes = std::min<std::size_t>(pairs, 16) + dry;
+  sticking.resize(scene.trees.of.size());
+  dry_rate.reserve(reserved);
   for (std::size_t i = 0; i < reserved; ++i) own.push_back(fresh_contact(scene));
   impulses.reserve(reserved);
   contacts.reserve(reserved);

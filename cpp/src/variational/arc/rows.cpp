@@ -158,7 +158,10 @@ bool level_rods(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
 Rows::Rows(const Scene& scene) {
   constexpr std::size_t few = 64;  // what is more grows once
   const auto pairs = static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
-  const std::size_t reserved = std::min(pairs, few), boxes = std::min<std::size_t>(pairs, 16);
+  const auto dry = static_cast<std::size_t>(scene.model.forces.friction.size());
+  const std::size_t reserved = std::min(pairs, few) + dry;
+  const std::size_t boxes = std::min<std::size_t>(pairs, 16) + dry;
+  sticking.resize(scene.trees.of.size());
   const auto chain = static_cast<std::size_t>(deepest_chain(scene.model.tree));
   row.resize(reserved);
   for (Row& each : row) {
