@@ -36,13 +36,28 @@ void add_coupled(const Actuator& a, const Push& push, int column, ForceValues& o
   out.slope[2 * column + 1] = push.by_rate;
 }
 
-void add_single(const Actuator& a, const Push& push, ForceValues& out) {
-  const Gear& gear = a.gears.front();
-  const int c = gear.velocity;
-  out.single[c] += gear.ratio * push.f;
-  out.size[c] += std::abs(gear.ratio) * push.size;
-  out.Q_q[c] += gear.ratio * gear.ratio * push.by_l;
-  out.Q_v[c] += gear.ratio * gear.ratio * push.by_rate;
+/// All that move one coordinate, in one loop over plain numbers: a robot has many.
+void add_singles(const VecRef& q, const VecRef& v, const ForceInput& input, ForceValues& out) {
+  const double* u = input.control.size() > 0 ? input.control.data() : nullptr;
+  for (const SingleActuator& a : out.singles) {
+    const double l = a.ratio * q[a.coordinate], rate = a.ratio * v[a.velocity];
+    const double told = std::min(std::max(u ? u[a.index] : 0, a.lower), a.upper);
+    const double asked = a.gain * told, by_l = a.bias_l * l, by_rate = a.bias_v * rate;
+    const double f = asked + a.bias + by_l + by_rate;
+    const bool is_limited = std::abs(f) >= a.effort;
+    const double push = is_limited ? std::copysign(a.effort, f) : f;
+    out.effort[a.index] = push;
+    out.rate[a.index] = rate;
+    out.single[a.velocity] += a.ratio * push;
+    if (is_limited) {
+      out.size[a.velocity] += std::abs(a.ratio) * a.effort;
+      continue;
+    }
+    out.size[a.velocity] += std::abs(a.ratio) * (std::abs(asked) + std::abs(a.bias) +
+                                                 std::abs(by_l) + std::abs(by_rate));
+    out.Q_q[a.velocity] += a.ratio * a.ratio * a.bias_l;
+    out.Q_v[a.velocity] += a.ratio * a.ratio * a.bias_v;
+  }
 }
 
 /// The joint's limit on the sum of its actuators, each of which keeps its share.
@@ -76,8 +91,15 @@ ForceValues::ForceValues(const ForceModel& forces, int n_v) {
   coupled.setZero(n_v, columns);
   slope.setZero(2 * columns);
   int column = 0;
-  for (const Actuator& a : forces.actuators) {
-    if (a.is_single()) continue;
+  for (int k = 0; k < forces.n_u(); ++k) {
+    const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
+    if (a.is_single()) {
+      const Gear& gear = a.gears.front();
+      singles.push_back({k, gear.velocity, gear.coordinate, gear.ratio, a.gain, a.bias, a.bias_l,
+                         a.bias_v, a.effort, a.lower, a.upper});
+      continue;
+    }
+    geared.push_back(k);
     for (const Gear& gear : a.gears) coupled(gear.velocity, column) += gear.ratio;
     ++column;
   }
@@ -86,14 +108,14 @@ ForceValues::ForceValues(const ForceModel& forces, int n_v) {
 void set_forces(const ForceModel& forces, const VecRef& q, const VecRef& v, const ForceInput& input,
                 ForceValues& out) {
   for (VecX* each : {&out.Q_q, &out.Q_v, &out.single, &out.Q, &out.size}) each->setZero();
+  add_singles(q, v, input, out);
   int column = 0;
-  const bool has_control = input.control.size() > 0;
-  for (int k = 0; k < forces.n_u(); ++k) {
+  for (const int k : out.geared) {
     const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
-    const Push push = push_of(a, q, v, has_control ? input.control[k] : 0);
+    const Push push = push_of(a, q, v, input.control.size() > 0 ? input.control[k] : 0);
     out.effort[k] = push.f;
     out.rate[k] = push.rate;
-    a.is_single() ? add_single(a, push, out) : add_coupled(a, push, column++, out);
+    add_coupled(a, push, column++, out);
   }
   limit_single(forces, out);
   out.Q += out.single;

@@ -74,6 +74,12 @@ struct ForceInput {
   bool acts() const { return qfrc.size() > 0 || !wrenches.empty(); }
 };
 
+/// An actuator of one coordinate, side by side with the others: most are.
+struct SingleActuator {
+  int index, velocity, coordinate;
+  double ratio, gain, bias, bias_l, bias_v, effort, lower, upper;
+};
+
 /// Forces at one (q, v, u), with the slopes that Newton's method needs.
 struct ForceValues {
   ForceValues() = default;
@@ -88,6 +94,8 @@ struct ForceValues {
   VecX rate;      ///< (n_u) l' of each
   VecX damping;   ///< (n_v) Q of damping alone
   VecX single;    ///< (n_v) scratch: of single actuators before the joint's limit
+  std::vector<SingleActuator> singles;  ///< as the model has them; written by the constructor
+  std::vector<int> geared;              ///< the other actuators; likewise
 };
 
 /// Writes all of `out` but wrenches, whose place is that of bodies.
