@@ -1105,8 +1105,8 @@ class Model:
         """
         Accelerations: forward dynamics.
 
-        Solves M(q) a + c(q, v) = forces + gravity_forces(q), c the forces of motion alone. Contacts,
-        limits, dampers and motors do not act. O(n) for deep trees.
+        Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of joints' springs, c the forces of
+        motion alone. Contacts, limits, damping, friction and motors do not act. O(n) for deep trees.
 
         Parameters
         ----------
@@ -1272,9 +1272,10 @@ class Model:
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
-        What gravity does to the coordinates, -dV/dq.
+        What gravity does to the coordinates.
 
-        Holding the model still takes the opposite, `inverse_dynamics(q, None, None)`.
+        Holding the model still takes the opposite; where joints have springs `inverse_dynamics(q)` has
+        theirs, too.
 
         Parameters
         ----------
@@ -1326,8 +1327,8 @@ class Model:
         """
         Forces that make given accelerations: inverse dynamics.
 
-        M(q) a + c(q, v) - gravity_forces(q), by the recursion of Newton and Euler, O(n). At rest and
-        without acceleration they are what holds the model up.
+        M(q) a + c(q, v) - gravity_forces(q) less those of joints' springs, by the recursion of Newton and
+        Euler, O(n). At rest and without acceleration they are what holds the model up.
 
         Parameters
         ----------
