@@ -50,7 +50,7 @@ def free_bodies(seed: int) -> tuple[saltus.Model, saltus.State, dict]:
     for i in range(int(rng.integers(1, 4))):
         mass = float(10 ** rng.uniform(-1, 1))
         builder.add_body(f"body_{i}", random_shape(rng, 0.15), mass=mass)
-        q += [*rng.uniform(-0.05, 0.05, 2), 0.3 + 0.4 * i, *rng.normal(size=4)]
+        q += [*rng.uniform(-0.05, 0.05, 2), 0.35 + 0.4 * i, *rng.normal(size=4)]
         v += [*rng.uniform(-2, 2, 3), *rng.uniform(-10, 10, 3)]
     model = builder.build()
     return model, model.state(model.normalized(q), v), {"h": float(rng.choice([0.005, 0.01]))}
