@@ -108,6 +108,7 @@ def expect_a_right_run(make, seed: int, steps: int) -> None:
     assert rise <= 0.1 * run.kinetic.max() + 1e-9, seed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 300, 50))
 def test_free_bodies(first):
     for seed in range(first, first + 50):
