@@ -74,8 +74,8 @@ struct Rows {
   std::vector<Vec3> u, p, before;
   PileScratch pile;
   std::vector<int> sticking;  ///< (trees) joints that stick
-  VecX momentum;  ///< (n_v) the node's with all impulses, written by set_row_rates
-  VecX size;      ///< (n_v) of all that is summed up in it, likewise
+  VecX momentum;              ///< (n_v) the node's with all impulses, written by set_row_rates
+  VecX size;                  ///< (n_v) of all that is summed up in it, likewise
 };
 
 /// Number k of the rows that an arc is solved with.
