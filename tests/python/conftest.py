@@ -27,16 +27,27 @@ def browser(tmp_path_factory):
 
 
 @pytest.fixture
-def open_page(browser, tmp_path):
-    """Return what opens the page of a run in a tab; tabs are closed after the test."""
+def open_page_of(browser):
+    """Return what opens a file in a tab; tabs are closed after the test."""
     tabs = []
 
-    def open_(run, size=(1100, 700), *, dark=False, **options):
-        path = tmp_path / f"page{len(tabs)}.html"
-        run.html(path, **options)
+    def open_(path, size=(1100, 700), *, dark=False):
         tabs.append(browser.open(path.as_uri(), size, dark=dark).ready())
         return tabs[-1]
 
     yield open_
     for tab in tabs:
         tab.close()
+
+
+@pytest.fixture
+def open_page(open_page_of, tmp_path):
+    """Return what writes the page of a run and opens it in a tab."""
+    count = iter(range(100))
+
+    def open_(run, size=(1100, 700), *, dark=False, **options):
+        path = tmp_path / f"page{next(count)}.html"
+        run.html(path, **options)
+        return open_page_of(path, size, dark=dark)
+
+    return open_
