@@ -133,8 +133,7 @@ TEST(UrdfLinks, NameSourceAndGravity) {
 TEST(UrdfLinks, OtherProgramsElementsAreSkipped) {
   const std::string body = "<sensor/><drake:x/>";
   std::string text = one_joint("continuous", "<safety_controller k_velocity=\"x\"/>", body);
-  text.insert(text.find("</robot>"),
-              "<material/><gazebo><a/></gazebo><my:thing/><ros2_control/>");
+  text.insert(text.find("</robot>"), "<material/><gazebo><a/></gazebo><my:thing/><ros2_control/>");
   EXPECT_TRUE(load(text)->warnings.empty());
 }
 
