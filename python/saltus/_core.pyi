@@ -2772,8 +2772,8 @@ class InertiaUse(enum.Enum):
 
     checked: from the file; moments that no body can have are refused, unless a change of 2 % of the
     greatest makes them possible, which is a warning. as_given: from the file, whatever they are.
-    from_shapes: links without a mass get that of their collision shapes, or where there are none of
-    their visuals, filled with water (1000 kg/m^3); a mesh is filled to its convex hull.
+    from_shapes: so, too, and links without a mass get that of their collision shapes, or where there are
+    none of their visuals, filled with water (1000 kg/m^3); a mesh is filled to its convex hull.
     """
 
     as_given = ...
