@@ -117,8 +117,7 @@ void stop_until_clear(const Scene& scene, double tau, const Node& node, Node& en
 
 /// M(q+) v, and v shortened where the arc gained energy beyond what forces do.
 /// @return false where that is no help
-bool set_momenta(const Scene& scene, double tau, double start, Node& end, ArcScratch& arc,
-                 Unlocated& x) {
+bool set_momenta(const Scene& scene, double start, Node& end, ArcScratch& arc, Unlocated& x) {
   const double V = potential_energy(scene.model.packed, end.w);
   const double before = start + x.work;
   evaluate_at(scene.model, x.q_end, end.p, x.v, arc);
@@ -178,7 +177,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
     break;
   }
   if (rung == Rung::stopped) stop_until_clear(scene, tau, node, end, x);
-  if (!set_momenta(scene, tau, before, end, arc, x)) {
+  if (!set_momenta(scene, before, end, arc, x)) {
     rung = Rung::stopped;
     x.v.setZero();
     end.v.setZero();
