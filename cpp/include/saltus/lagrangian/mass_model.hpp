@@ -26,9 +26,9 @@ struct MassModel {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
   /// What a coordinate has of its own: a motor's rotor, T = armature v^2 / 2, and a spring,
   /// V = stiffness (q - rest)^2 / 2. By velocity, 0 of balls; empty where no coordinate has any.
-  VecX armature;   ///< (n_v) [kg m^2 | kg]
-  VecX stiffness;  ///< (n_v) [N m/rad | N/m]
-  VecX rest;       ///< (n_v) [rad | m]
+  VecX armature = {};   ///< (n_v) [kg m^2 | kg]
+  VecX stiffness = {};  ///< (n_v) [N m/rad | N/m]
+  VecX rest = {};       ///< (n_v) [rad | m]
 };
 
 }  // namespace saltus
