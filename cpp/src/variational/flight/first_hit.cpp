@@ -21,27 +21,25 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
          f.work.rows.of_contact[contact] < 0;
 }
 
-/// The pair at `slot` becomes the first where it closes before.
-void take_if_first(const Scene& scene, int slot, const Node& node, const Flight& f,
-                   FirstHit& first) {
+void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   if (!is_watched(node, f, slot)) return;
   const ChordHit hit =
       first_hit_on_chord(scene.model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
-  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < first.s)) return;
+  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const int contact = node.contact_at(slot);
   const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
-  first = {slot, hit.s, hops};
+  f.hits.push_back({slot, hit.s, hops});
 }
 
 }  // namespace
 
-FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
+void find_hits(const Scene& scene, const Node& node, Flight& f) {
   const ModelData& model = scene.model;
-  FirstHit first;
-  if (!model.has_gaps()) return first;
+  f.hits.clear();
+  if (!model.has_gaps()) return;
   f.dq = f.work.arc.tau * f.work.arc.v;
-  for (int slot = 0; slot < node.pool.limits(); ++slot) take_if_first(scene, slot, node, f, first);
-  if (model.pairs.empty()) return first;
+  for (int slot = 0; slot < node.pool.limits(); ++slot) add_if_hit(scene, slot, node, f);
+  if (model.pairs.empty()) return;
   double margin = 0;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
   const Pair* solid = nullptr;
@@ -53,9 +51,17 @@ FirstHit first_hit(const Scene& scene, const Node& node, Flight& f) {
       solid = node.pool.solid(slot);
       is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, node, f.dq);
     }
-    if (!is_clear) take_if_first(scene, slot, node, f, first);
+    if (!is_clear) add_if_hit(scene, slot, node, f);
   }
-  return first;
+}
+
+std::optional<Hit> take_first(std::vector<Hit>& hits) {
+  const auto sooner = [](const Hit& a, const Hit& b) { return a.s < b.s; };
+  const auto first = std::min_element(hits.begin(), hits.end(), sooner);
+  if (first == hits.end()) return std::nullopt;
+  const Hit hit = *first;
+  hits.erase(first);
+  return hit;
 }
 
 bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& work) {

@@ -1,19 +1,15 @@
-// The first gap that closes on the chord of an arc.
+// The gaps that close on the chord of an arc.
 #pragma once
 
 #include "variational/flight/flight.hpp"
 
 namespace saltus {
 
-struct FirstHit {
-  int slot = -1;      ///< of the pair; none
-  double s = 2;       ///< where on the chord
-  bool hops = false;  ///< it touches at the node and leaves, yet closes along the chord from the
-                      ///< start: it is back before the arc ends
-};
+/// Writes flight.dq, the chord, and flight.hits of all pairs watched. The pool may grow.
+void find_hits(const Scene& scene, const Node& node, Flight& flight);
 
-/// Writes flight.dq, the chord. The pool may grow.
-FirstHit first_hit(const Scene& scene, const Node& node, Flight& flight);
+/// Takes the one away that is first on the chord.
+std::optional<Hit> take_first(std::vector<Hit>& hits);
 
 /// An end of a rod whose axis is held on an edge, where the edge comes to that end: the two touch
 /// in the same point, and that of the end only grazes.

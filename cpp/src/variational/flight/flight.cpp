@@ -1,6 +1,7 @@
 #include "variational/flight/flight.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "variational/flight/first_hit.hpp"
 #include "variational/flight/impact_time.hpp"
@@ -57,19 +58,23 @@ FlightOutcome no_arc(const ArcWork& work) {
 }
 
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
-ImpactTime shorten(const Scene& scene, const FirstHit& hit, double tau, const Node& node,
-                   Memory& memory, Flight& f) {
+ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& node, Memory& memory,
+                   Flight& f) {
   ArcWork& work = f.work;
   f.start_v = work.arc.v;
+  const Pair& pair = node.pool[hit.slot];
+  const bool found_before = f.closing == hit.slot;
+  const bool ends_there = found_before && std::abs(phi_at_end(scene, pair, work)) <= pair.touch;
   f.closing = hit.slot;
   ImpactTime found = find_impact_time(scene, hit, node, memory, f);
   if (found == ImpactTime::found && grazes_with_axis(scene, hit.slot, node, work)) {
     found = ImpactTime::missed;
   }
   if (found == ImpactTime::found) {
-    // Nothing more to find: both ends of its chord touch, or the arc ends at it already (far from
-    // the origin the chord tells gaps apart no better than their rounding).
-    if (hit.hops || work.arc.tau > tau * (1 - 1e-9)) f.skips.let_pass(hit.slot);
+    // Nothing more to find: both ends of its chord touch, or the arc ended at it already (far from
+    // the origin the chord tells gaps apart no better than their rounding, and the end of an arc
+    // that many rows hold is no sharper than what its Newton iteration leaves).
+    if (hit.hops || ends_there || work.arc.tau > tau * (1 - 1e-9)) f.skips.let_pass(hit.slot);
     return found;
   }
   if (found == ImpactTime::missed) f.skips.let_pass(hit.slot);
@@ -112,6 +117,7 @@ Flight::Flight(const Scene& scene)
     : work(scene), broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
   if (scene.options.law == ImpactLaw::shadow_energy) meter.emplace(scene.model);
   settlings.reserve(64);
+  hits.reserve(64);
   for (VecX* x : {&dq, &start_v, &before_v, &n}) x->setZero(scene.model.tree.n_v);
 }
 
@@ -131,8 +137,9 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   memory.has_rate = false;
   double tau = left;
   bool solved = true;
+  bool knows_hits = false;  // of this arc: the one before was missed on it
   // every turn presses a row, lets a pair pass, or shortens the arc to an earlier impact
-  const int most_turns = 100 + 4 * node.pool.size();
+  const int most_turns = 100 + 4 * std::min(node.pool.size(), 250);
   for (int turn = 0; turn < most_turns; ++turn) {
     ImpactTime found = ImpactTime::not_converged;
     if (solved || solve(scene, tau, node, work)) {
@@ -141,18 +148,23 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       solved = false;
       if (press_rows(scene, work.arc.q_end, node, work.rows, work.scratch)) {
         f.skips.watch_again();
+        knows_hits = false;
         continue;
       }
       if (hold_rims_at_points(scene, work.arc.q_end, node, work.rows, work.scratch)) {
         f.skips.watch_again();
+        knows_hits = false;
         start_from_node(node, work);
         continue;
       }
-      const FirstHit hit = first_hit(scene, node, f);
-      if (hit.slot < 0) return FlightOutcome::arrived;
-      found = shorten(scene, hit, tau, node, memory, f);
+      if (!knows_hits) find_hits(scene, node, f);
+      const std::optional<Hit> hit = take_first(f.hits);
+      if (!hit) return FlightOutcome::arrived;
+      found = shorten(scene, *hit, tau, node, memory, f);
+      knows_hits = found == ImpactTime::missed;
     } else if (level_held_ends(scene, node, work.rows)) {
       work.arc.v = node.v;
+      knows_hits = false;
       continue;
     }
     if (found == ImpactTime::not_located) return FlightOutcome::impact_not_located;

@@ -30,6 +30,14 @@ struct Skips {
   void watch_again();  ///< what may pass on one arc is watched on one that others hold
 };
 
+/// A gap that closes on the chord of an arc.
+struct Hit {
+  int slot;   ///< of the pair
+  double s;   ///< where on the chord
+  bool hops;  ///< it touches at the node and leaves, yet closes along the chord from the start: it
+              ///< is back before the arc ends
+};
+
 /// Written by `fly`.
 struct Flight {
   explicit Flight(const Scene& scene);
@@ -42,6 +50,7 @@ struct Flight {
   // scratch
   Skips skips;
   BroadPhase broad;
+  std::vector<Hit> hits;             ///< on the chord of the arc, in no order
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   double settling_time = 0;          ///< [s] from the node, of the pair that settles
   VecX dq, start_v, before_v, n;

@@ -7,6 +7,12 @@
 #include "variational/arc/closing_arc.hpp"
 
 namespace saltus {
+
+double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
+  place_end(scene.model, work.arc.q_end, work.scratch);
+  return pair_gap_at_end(scene.model, pair, work.scratch).phi;
+}
+
 namespace {
 
 /// g and g' at the end of flight.arc.
@@ -14,11 +20,6 @@ struct GapAtEnd {
   double phi;
   double slope;
 };
-
-double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
-  place_end(scene.model, work.arc.q_end, work.scratch);
-  return pair_gap_at_end(scene.model, pair, work.scratch).phi;
-}
 
 /// Also writes memory.rate = v'(tau), the next guess's slope.
 GapAtEnd gap_at_end(const Scene& scene, const Pair& pair, Memory& memory, Flight& f) {
@@ -137,8 +138,8 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
 
 }  // namespace
 
-ImpactTime find_impact_time(const Scene& scene, const FirstHit& hit, const Node& node,
-                            Memory& memory, Flight& f) {
+ImpactTime find_impact_time(const Scene& scene, const Hit& hit, const Node& node, Memory& memory,
+                            Flight& f) {
   if (hit.hops || hit.s <= 0) {
     // a part that does not face the other any more is none
     if (node.contact_at(hit.slot) < 0) return ImpactTime::missed;

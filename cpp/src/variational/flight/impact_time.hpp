@@ -15,9 +15,12 @@ enum class ImpactTime {
   not_located,    ///< the root was not found in the bounded number of arcs
 };
 
+/// [m] of the pair, at the end of the arc.
+double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work);
+
 /// Shortens flight.work.arc to where the pair that the chord hits closes; of one that hops, to its
 /// return. Writes memory.rate.
-ImpactTime find_impact_time(const Scene& scene, const FirstHit& hit, const Node& node,
-                            Memory& memory, Flight& flight);
+ImpactTime find_impact_time(const Scene& scene, const Hit& hit, const Node& node, Memory& memory,
+                            Flight& flight);
 
 }  // namespace saltus
