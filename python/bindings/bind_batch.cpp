@@ -75,8 +75,8 @@ StepError, JammedError, ModelError
 
 void run(BatchTrajectory& out, const std::vector<State>& starts, double duration,
          const StepOptions& step, int record_every, bool record_contacts,
-         const std::vector<MatX>& control, const std::optional<Wrenches>& forces,
-         const Velocities& qfrc, int threads, const Choice<OnFailure>& on_failure,
+         const std::vector<MatX>& control, const Wrenches& forces, const Velocities& qfrc,
+         int threads, const Choice<OnFailure>& on_failure,
          const std::optional<Progress>& progress) {
   BatchOptions options;
   options.run.step = step;

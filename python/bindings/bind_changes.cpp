@@ -107,12 +107,13 @@ void bind_link(py::module_& m) {
 template <auto field>
 void bind_field(py::class_<BuilderJoint>& c, const char* name, const char* doc) {
   using T = std::decay_t<decltype(std::declval<JointSpec>().*field)>;
+  const auto set = [](BuilderJoint& joint, const T& value) {
+    joint.builder->change_joint(joint.name, [&](JointSpec& spec) { spec.*field = value; });
+  };
   c.def_property(
       name, [](const BuilderJoint& joint) { return joint.spec().*field; },
-      [](BuilderJoint& joint, const T& value) {
-        joint.builder->change_joint(joint.name, [&](JointSpec& spec) { spec.*field = value; });
-      },
-      doc);
+      // named, because pybind11 tells a value of a wrong type by the setter's name
+      py::cpp_function(set, py::name(name), py::is_method(c)), doc);
 }
 
 void bind_joint(py::module_& m) {

@@ -4,29 +4,13 @@
 #include "saltus/model/dynamics.hpp"
 
 namespace saltus::bindings {
+namespace {
 
 /// What a user gives for a point, or for one a row: three numbers, or nothing.
 struct Points {
+  static constexpr auto type_name = py::detail::const_name("numpy.typing.ArrayLike | None");
   py::object value;
 };
-
-}  // namespace saltus::bindings
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<saltus::bindings::Points> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::Points, const_name("numpy.typing.ArrayLike | None"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-}  // namespace pybind11::detail
-
-namespace saltus::bindings {
-namespace {
 
 using Shape = std::vector<py::ssize_t>;
 

@@ -201,7 +201,7 @@ NamedReport with_names(const Model& model, const StepReport& r) {
   NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual,
                   {},           {},     {},          {},         {}};
   std::vector<std::string> sources = names_of(model->forces.actuators);
-  sources.insert(sources.end(), {"damping", "friction", "applied"});
+  sources.insert(sources.end(), other_sources.begin(), other_sources.end());
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     out.work[sources[k]] = i < r.work.size() ? r.work[i] : 0;

@@ -28,8 +28,8 @@ order matters, `impact_outcomes` by how much.
 With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
 until it does not close any more and an expansion with e times the impulse of the compression
 (Poisson's restitution), and in each friction is what dissipates most, `|beta| <= mu lambda`. Energy
-never grows. Contacts that all have e = 0 are resolved together; `ImpactOrder.symmetric` is
-`fastest` here.
+never grows. Contacts that all have e = 0 are resolved together, and with `ImpactOrder.symmetric` all
+that approach.
 
 Parameters
 ----------

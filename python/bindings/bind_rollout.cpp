@@ -60,8 +60,7 @@ Energies
 
 void run(Trajectory& out, const State& start, double duration, const StepOptions& step,
          int record_every, bool record_contacts, const py::object& control, int control_every,
-         const std::optional<Wrenches>& forces, const Velocities& qfrc,
-         const std::optional<Progress>& progress) {
+         const Wrenches& forces, const Velocities& qfrc, const std::optional<Progress>& progress) {
   SimulateOptions options;
   options.step = step;
   options.record_every = record_every;

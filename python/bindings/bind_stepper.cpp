@@ -95,8 +95,8 @@ struct SharedStepper {
 
   SharedStepper(const Model& model, const StepOptions& options) : stepper(model, options) {}
 
-  State advance(const State& state, const py::object& control,
-                const std::optional<Wrenches>& forces, const Velocities& qfrc) {
+  State advance(const State& state, const py::object& control, const Wrenches& forces,
+                const Velocities& qfrc) {
     const ForceInput input = to_input(control, forces, qfrc, stepper.model());
     const py::gil_scoped_release release;
     const std::lock_guard lock(mutex);

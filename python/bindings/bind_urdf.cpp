@@ -5,29 +5,13 @@
 #include "saltus/urdf/load_urdf.hpp"
 
 namespace saltus::bindings {
+namespace {
 
 /// Anything that os.fspath takes.
 struct PathLike {
+  static constexpr auto type_name = py::detail::const_name("str | os.PathLike[str]");
   py::object value;
 };
-
-}  // namespace saltus::bindings
-
-namespace pybind11::detail {
-
-template <>
-struct type_caster<saltus::bindings::PathLike> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::PathLike, const_name("str | os.PathLike[str]"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-}  // namespace pybind11::detail
-
-namespace saltus::bindings {
-namespace {
 
 constexpr auto mesh_use_doc =
     R"(What becomes of collision meshes: convex solids around them, or nothing.)";

@@ -17,10 +17,6 @@
 #include "saltus/variational/options.hpp"
 #include "saltus/variational/report.hpp"
 
-namespace saltus {
-class ModelBuilder;
-}
-
 namespace saltus::bindings {
 
 namespace py = pybind11;
@@ -56,11 +52,15 @@ void explain_errors(const py::module_& m);
 /// What a user gives for q: names and values (others as in Model::neutral), where a joint's name
 /// stands for all of its numbers; an array (n_q); or None.
 struct Coordinates {
+  static constexpr auto type_name = py::detail::const_name(
+      "collections.abc.Mapping[str, object] | numpy.typing.ArrayLike | None");
   py::object value;
 };
 
 /// Likewise for v: others are 0, and arrays (n_v).
 struct Velocities {
+  static constexpr auto type_name = py::detail::const_name(
+      "collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None");
   py::object value;
 };
 
@@ -71,6 +71,8 @@ VecX to_vector(const Velocities& x, const Model& model, const char* what = "v");
 
 /// What a user gives for e or mu: one number for all contacts, or one for each.
 struct PerContact {
+  static constexpr auto type_name =
+      py::detail::const_name("typing.SupportsFloat | numpy.typing.ArrayLike");
   py::object value;
 };
 
@@ -80,6 +82,8 @@ VecX to_vector(const PerContact& x, Eigen::Index contacts, const char* what);
 
 /// Which law impacts obey: one of ImpactLaw or its name, or a function ImpactProblem -> p+.
 struct LawChoice {
+  static constexpr auto type_name = py::detail::const_name(
+      "ImpactLaw | str | collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike]");
   py::object value;
 };
 
@@ -90,12 +94,15 @@ void set_law(const LawChoice& law, StepOptions& options);
 /// where pybind11 would print the signatures that there are.
 template <class T>
 struct Unchecked {
+  static constexpr auto type_name = py::detail::make_caster<T>::name;
   py::object value;
 };
 
 /// What a user gives for an enumeration: a member, or the name of one.
 template <class Enum>
 struct Choice {
+  static constexpr auto type_name =
+      py::detail::make_caster<Enum>::name + py::detail::const_name(" | str");
   py::object value;
 };
 
@@ -145,64 +152,12 @@ py::array view(const std::vector<Item>& items, const py::handle& owner) {
 
 namespace pybind11::detail {
 
-/// Takes any object; to_vector says what is wrong with it in better words than an overload error.
-template <>
-struct type_caster<saltus::bindings::Coordinates> {
-  PYBIND11_TYPE_CASTER(
-      saltus::bindings::Coordinates,
-      const_name("collections.abc.Mapping[str, object] | numpy.typing.ArrayLike | None"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-template <>
-struct type_caster<saltus::bindings::Velocities> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::Velocities,
-                       const_name("collections.abc.Mapping[str, numpy.typing.ArrayLike] | "
-                                  "numpy.typing.ArrayLike | None"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-template <>
-struct type_caster<saltus::bindings::PerContact> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::PerContact,
-                       const_name("typing.SupportsFloat | numpy.typing.ArrayLike"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-template <>
-struct type_caster<saltus::bindings::LawChoice> {
-  PYBIND11_TYPE_CASTER(
-      saltus::bindings::LawChoice,
-      const_name("ImpactLaw | str | "
-                 "collections.abc.Callable[[ImpactProblem], numpy.typing.ArrayLike]"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
-template <class Enum>
-struct type_caster<saltus::bindings::Choice<Enum>> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::Choice<Enum>,
-                       make_caster<Enum>::name + const_name(" | str"));
-  bool load(handle source, bool /*convert*/) {
-    value.value = reinterpret_borrow<object>(source);
-    return static_cast<bool>(source);
-  }
-};
-
+/// Arguments with a type_name take any object: who uses one says what is wrong with it in better
+/// words than an overload error.
 template <class T>
-struct type_caster<saltus::bindings::Unchecked<T>> {
-  PYBIND11_TYPE_CASTER(saltus::bindings::Unchecked<T>, make_caster<T>::name);
+  requires requires { T::type_name; }
+struct type_caster<T> {
+  PYBIND11_TYPE_CASTER(T, T::type_name);
   bool load(handle source, bool /*convert*/) {
     value.value = reinterpret_borrow<object>(source);
     return static_cast<bool>(source);

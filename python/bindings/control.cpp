@@ -79,6 +79,23 @@ AppliedWrench applied(const std::string& name, const Wrench& wrench, const Model
   return {link.joint, point, R * wrench.force, R * wrench.torque, true};
 }
 
+void add_wrenches(const Wrenches& forces, const Model& model, ForceInput& input) {
+  if (forces.value.is_none()) return;
+  if (!py::hasattr(forces.value, "items")) {
+    throw py::type_error("forces is " + py::repr(forces.value).cast<std::string>() +
+                         "; it is a mapping of links' names to Wrenches");
+  }
+  for (const py::handle item : forces.value.attr("items")()) {
+    const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
+    const auto link = py::str(key).cast<std::string>();
+    if (!py::isinstance<Wrench>(value)) {
+      throw py::type_error("forces[\"" + link + "\"] is " + py::repr(value).cast<std::string>() +
+                           "; it is a saltus.Wrench, as Wrench(force=(1, 0, 0))");
+    }
+    input.wrenches.push_back(applied(link, value.cast<Wrench>(), model));
+  }
+}
+
 /// Asks Python for the controls of the next steps.
 class PythonPolicy {
  public:
@@ -87,9 +104,10 @@ class PythonPolicy {
 
   void operator()(const Moment& now, ForceInput& input) const {
     const py::gil_scoped_acquire acquire;
-    const py::object moment = py::module_::import("saltus.runs.moment")
-                                  .attr("Moment")(now.state, now.v, model_, input.control,
-                                                  with_names(model_, now.report), now.step);
+    const py::object moment =
+        py::module_::import("saltus.runs.moment")
+            .attr("Moment")(now.state, read_only(py::cast(now.v)), model_, input.control,
+                            with_names(model_, now.report), now.step);
     const py::object answer = function_(moment);
     if (answer.is_none()) return;
     input.control = to_control(answer, model_);
@@ -117,20 +135,17 @@ VecX to_control(const py::object& x, const Model& model) {
   return u;
 }
 
-ForceInput to_input(const py::object& control, const std::optional<Wrenches>& forces,
-                    const Velocities& qfrc, const Model& model) {
+ForceInput to_input(const py::object& control, const Wrenches& forces, const Velocities& qfrc,
+                    const Model& model) {
   ForceInput input;
   input.control = to_control(control, model);
   if (!qfrc.value.is_none()) input.qfrc = to_vector(qfrc, model, "qfrc");
-  if (!forces) return input;
-  for (const auto& [link, wrench] : *forces) {
-    input.wrenches.push_back(applied(link, wrench, model));
-  }
+  add_wrenches(forces, model, input);
   return input;
 }
 
-Policy to_policy(const py::object& control, const std::optional<Wrenches>& forces,
-                 const Velocities& qfrc, const Model& model) {
+Policy to_policy(const py::object& control, const Wrenches& forces, const Velocities& qfrc,
+                 const Model& model) {
   Policy policy;
   py::object first = py::none();
   if (PyCallable_Check(control.ptr()) != 0) {

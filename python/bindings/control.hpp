@@ -1,8 +1,6 @@
 // From what a user gives for controls and forces to what drives a run.
 #pragma once
 
-#include <map>
-
 #include "bindings.hpp"
 #include "saltus/rollout/control.hpp"
 
@@ -14,17 +12,22 @@ struct Wrench {
   bool in_body = false;
 };
 
-using Wrenches = std::map<std::string, Wrench>;
+/// What a user gives for forces: wrenches by the names of links, or None.
+struct Wrenches {
+  static constexpr auto type_name =
+      py::detail::const_name("collections.abc.Mapping[str, Wrench] | None");
+  py::object value;
+};
 
 /// None, a mapping of actuators' names, or an array (n_u). @throws ModelError on what is neither
 VecX to_control(const py::object& x, const Model& model);
 
 /// `forces` by the names of links.
-ForceInput to_input(const py::object& control, const std::optional<Wrenches>& forces,
-                    const Velocities& qfrc, const Model& model);
+ForceInput to_input(const py::object& control, const Wrenches& forces, const Velocities& qfrc,
+                    const Model& model);
 
 /// `control` also (steps, n_u), or a function of a Moment; the function is kept by the caller.
-Policy to_policy(const py::object& control, const std::optional<Wrenches>& forces,
-                 const Velocities& qfrc, const Model& model);
+Policy to_policy(const py::object& control, const Wrenches& forces, const Velocities& qfrc,
+                 const Model& model);
 
 }  // namespace saltus::bindings

@@ -80,11 +80,13 @@ pitch : float
 mimic : Mimic, optional
     The joint that this one follows.
 lower, upper : float
-    [rad | m] limits; stored, not applied.
-velocity, effort : float
-    [rad/s | m/s], [N m | N] limits; stored, not applied.
+    [rad | m] limits, which a step holds.
+velocity : float
+    [rad/s | m/s] limit; for you to read, no step holds it.
+effort : float
+    [N m | N] limit of what the joint's actuators push with.
 damping, friction : float
-    [N m s/rad | N s/m], [N m | N]; stored, not applied.
+    [N m s/rad | N s/m], [N m | N]; viscous damping and dry friction, which act in a step.
 
 Raises
 ------

@@ -89,6 +89,10 @@ py::tuple to_tuple(const ModelDescription& d) {
                         Actuators::from(d.actuators), Visuals::from(d.visuals));
 }
 
+py::tuple moving_parts(const ModelDescription& d) {
+  return py::make_tuple(Links::from(d.links), Joints::from(d.joints), Actuators::from(d.actuators));
+}
+
 ModelDescription to_description(const py::tuple& t) {
   using F = FilterSpec;
   using M = MaterialSpec;

@@ -37,6 +37,10 @@ Hull to_hull(const py::tuple& tuple);
 void use_one_protocol(const py::module_& m);
 
 py::tuple to_tuple(const ModelDescription& description);
+
+/// Of that the links, joints and actuators: all that moves.
+py::tuple moving_parts(const ModelDescription& description);
+
 ModelDescription to_description(const py::tuple& tuple);
 
 }  // namespace saltus::bindings

@@ -1091,6 +1091,10 @@ class Model:
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
+    def _moving_parts(self) -> tuple:
+        """
+        Links, joints and actuators as the model was built of them, to compare models by.
+        """
     def _repr_html_(self) -> str: ...
     def accelerations(
         self,
@@ -2053,11 +2057,13 @@ class ModelBuilder:
         mimic : Mimic, optional
             The joint that this one follows.
         lower, upper : float
-            [rad | m] limits; stored, not applied.
-        velocity, effort : float
-            [rad/s | m/s], [N m | N] limits; stored, not applied.
+            [rad | m] limits, which a step holds.
+        velocity : float
+            [rad/s | m/s] limit; for you to read, no step holds it.
+        effort : float
+            [N m | N] limit of what the joint's actuators push with.
         damping, friction : float
-            [N m s/rad | N s/m], [N m | N]; stored, not applied.
+            [N m s/rad | N s/m], [N m | N]; viscous damping and dry friction, which act in a step.
 
         Raises
         ------
@@ -2137,7 +2143,8 @@ class ModelBuilder:
         """
         Adds a servo, kp (control - q) - kd v; the control is the position to reach.
 
-        The servo acts inside the step, which is stable at any gain.
+        The servo acts inside the step, which is stable at any gain that rounding leaves sense: kp h^2 and
+        kd h up to 1e12 times what they move.
 
         Parameters
         ----------
@@ -2514,7 +2521,7 @@ class BuilderJoint:
         Pose of the joint's frame in the parent link's
         """
     @X_PJ.setter
-    def X_PJ(self, arg1: Pose) -> None: ...
+    def X_PJ(self, arg0: Pose) -> None: ...
     @property
     def axis(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -2522,7 +2529,7 @@ class BuilderJoint:
         """
     @axis.setter
     def axis(
-        self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
+        self, arg0: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]
     ) -> None: ...
     @property
     def child(self) -> str: ...
@@ -2532,35 +2539,35 @@ class BuilderJoint:
         [N m s/rad | N s/m]
         """
     @damping.setter
-    def damping(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def damping(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def effort(self) -> float:
         """
         [N m | N] limit, inf where there is none
         """
     @effort.setter
-    def effort(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def effort(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction(self) -> float:
         """
         [N m | N]
         """
     @friction.setter
-    def friction(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def lower(self) -> float:
         """
         [rad | m] limit, -inf where there is none
         """
     @lower.setter
-    def lower(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def lower(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def mimic(self) -> Mimic | None:
         """
         Mimic or None
         """
     @mimic.setter
-    def mimic(self, arg1: Mimic | None) -> None: ...
+    def mimic(self, arg0: Mimic | None) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -2571,7 +2578,7 @@ class BuilderJoint:
         [m/rad] helical joints only
         """
     @pitch.setter
-    def pitch(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def pitch(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def type(self) -> JointType: ...
     @property
@@ -2580,14 +2587,14 @@ class BuilderJoint:
         [rad | m] limit, inf where there is none
         """
     @upper.setter
-    def upper(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def upper(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def velocity(self) -> float:
         """
         [rad/s | m/s] limit, inf where there is none
         """
     @velocity.setter
-    def velocity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def velocity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class Frames:
     """
@@ -3818,8 +3825,8 @@ def resolve_impact(
     With `T` and `friction` contacts have Coulomb friction: one after another collides, in a compression
     until it does not close any more and an expansion with e times the impulse of the compression
     (Poisson's restitution), and in each friction is what dissipates most, `|beta| <= mu lambda`. Energy
-    never grows. Contacts that all have e = 0 are resolved together; `ImpactOrder.symmetric` is
-    `fastest` here.
+    never grows. Contacts that all have e = 0 are resolved together, and with `ImpactOrder.symmetric` all
+    that approach.
 
     Parameters
     ----------

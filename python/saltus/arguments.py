@@ -273,11 +273,13 @@ def _dimensions(kind: str) -> list[str]:
 
 
 def _shape(kind: str) -> str:
-    rows, columns = _dimensions(kind)
-    return f"({rows},)" if columns == "1" else f"({rows}, {columns})"
+    rows, *columns = _dimensions(kind)
+    return f"({rows},)" if columns in ([], ["1"]) else f"({rows}, {columns[0]})"
 
 
 def _has_shape(array: np.typing.NDArray[np.float64], dimensions: list[str]) -> bool:
+    if len(dimensions) == 1:
+        return array.shape == (int(dimensions[0]),)
     rows, columns = dimensions
     if columns == "1":
         return array.ndim in (1, 2) and rows in ("m", str(array.size)) and array.size in array.shape

@@ -92,3 +92,32 @@ def test_forces_that_are_none_are_named() -> None:
 def test_builders_refuse_what_no_joint_can_have(make, message: str) -> None:
     with pytest.raises(ModelError, match=message):
         make(arm())
+
+
+def test_forces_of_a_wrong_kind_are_named() -> None:
+    model = servo_arm()
+    with pytest.raises(TypeError, match=r'forces\["upper"\] is 3; it is a saltus\.Wrench'):
+        saltus.simulate(model, duration=0.1, forces={"upper": 3})  # type: ignore[dict-item]
+
+
+def test_sources_of_work_are_no_names_of_actuators() -> None:
+    for name in ("damping", "friction", "applied"):
+        with pytest.raises(ModelError, match=f'"{name}" has a name that work has already'):
+            arm().add_motor(name, joint="elbow")
+
+
+@pytest.mark.parametrize("gain", ["kp", "kd"])
+def test_gains_of_servos_are_not_negative(gain: str) -> None:
+    gains = {"kp": 1.0, gain: -2.0}
+    with pytest.raises(ModelError, match=f'servo "s" has {gain} = -2; '):
+        arm().add_position_servo("s", joint="elbow", **gains)
+    with pytest.raises(ModelError, match='servo "s" has kv = -2; '):
+        arm().add_velocity_servo("s", joint="elbow", kv=-2)
+
+
+def test_the_first_control_of_a_policy_is_recorded() -> None:
+    run = saltus.simulate(
+        servo_arm(), duration=0.05, h=H, control=lambda now: [0.1 + now.t, 0.2], progress=False
+    )
+    np.testing.assert_allclose(run.control[:5, 0], 0.1 + H * np.arange(5), rtol=0, atol=1e-15)
+    assert run.control[5, 0] == run.control[4, 0]  # no step starts at the last row

@@ -214,3 +214,36 @@ def test_other_programs_can_read_the_file(tmp_path):
         assert law == {law.name: law.value for law in saltus.ImpactLaw}
         assert law["nodal_energy"] == 0
         assert file["urdf"].asstr()[()].startswith("<robot")
+
+
+@pytest.mark.parametrize("effects", [saltus.JointEffects.limits, saltus.JointEffects.none])
+def test_what_acts_in_the_joints_is_kept(tmp_path, effects):
+    model = saltus.load_urdf(limited_arm(), effects=effects)
+    saltus.simulate(model, duration=0.1).save(tmp_path / "run.h5")
+    again = saltus.load(tmp_path / "run.h5").model
+    assert again.limit_names == model.limit_names
+    np.testing.assert_array_equal(again.damping, model.damping)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda b: b.set_limit("elbow", -1.0, 1.5),
+        lambda b: b.set_limit("elbow", -1.0, 2.0, restitution=0.5),
+        lambda b: b.add_joint_spring("elbow", stiffness=3.0),
+        lambda b: b.set_damping("elbow", 0.2),
+        lambda b: b.add_motor("push", joint="elbow"),
+    ],
+)
+def test_a_changed_joint_is_not_in_the_file(tmp_path, change):
+    model = change(saltus.read_urdf(limited_arm())).build()
+    saltus.simulate(model, duration=0.1).save(tmp_path / "run.h5")
+    assert saltus.load(tmp_path / "run.h5").model is None
+
+
+def limited_arm() -> str:
+    """Return a link on a joint with limits and damping."""
+    return """<robot name="arm"><link name="base"/><link name="arm"><inertial><mass value="1"/>
+    <inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    <joint name="elbow" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="2" effort="9" velocity="3"/><dynamics damping=".1"/></joint></robot>"""

@@ -233,3 +233,25 @@ def test_a_robot_falls_on_a_floor_and_its_limits_hold() -> None:
     assert run.complete
     assert (run.q >= -0.2 - 1e-12).all()
     assert (run.q <= 0.5 + 1e-12).all()
+
+
+def test_a_mimic_joint_that_comes_first_narrows_the_limits_of_the_other() -> None:
+    mimic = saltus.Mimic("swing", 1.0, 0.0)
+    builder = ModelBuilder("pair")
+    for name in ("follower", "swing"):
+        builder.add_link(name, BodyInertia(1, (0, -1, 0), np.zeros((3, 3))))
+    revolute = JointType.revolute
+    axis = (0.0, 0.0, 1.0)
+    builder.add_joint(
+        "follower", revolute, parent="world", child="follower", axis=axis, mimic=mimic,
+        lower=-0.5, upper=0.5,
+    )  # fmt: skip
+    builder.add_joint(
+        "swing", revolute, parent="world", child="swing", axis=axis, lower=-1.0, upper=0.2
+    )
+    builder.build()  # one after the other they would have crossed or been lost
+    assert builder.build().neutral()[0] == 0.0
+    with pytest.raises(saltus.ModelError, match=r"starts at 0\.3, beyond its upper limit 0\.2"):
+        saltus.simulate(builder.build(), q=[0.3], duration=H, h=H)
+    with pytest.raises(saltus.ModelError, match=r"starts at -0\.6, beyond its lower limit -0\.5"):
+        saltus.simulate(builder.build(), q=[-0.6], duration=H, h=H)

@@ -60,3 +60,11 @@ def test_errors_are_one_line(arguments, words, tmp_path, monkeypatch, capsys):
     assert words in said
     assert len(said.splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_what_a_file_draws_is_on_the_page(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr(saltus.Trajectory, "html", lambda run, *_, **__: seen.append(run))
+    page = str(tmp_path / "page.html")
+    assert main(["view", str(URDF / "arm.urdf"), "--duration", "0.01", "--html", page]) == 0
+    assert seen[0].model.visuals

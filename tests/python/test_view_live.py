@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import time
 import urllib.error
 from contextlib import contextmanager
 
@@ -202,3 +203,18 @@ def test_a_step_that_fails_pauses_and_says_why(monkeypatch):
     assert not live.playing
     assert json.loads(live.frame[1])["problem"] == "stopped: no step"
     assert live.state == before
+
+
+def test_a_speed_that_is_no_number_is_refused():
+    live = Live(model_of("double_pendulum"), model_of("double_pendulum").state(), h=0.01)
+    with pytest.raises(saltus.ModelError, match="speed = nan"):
+        ask(live, do="speed", value=float("nan"))
+    assert live.speed == 1.0
+
+
+def test_steps_longer_than_what_is_made_up_for_are_made():
+    model = saltus.ModelBuilder().add_body("b", saltus.Sphere(0.1), mass=1.0).build()
+    live = Live(model, model.state(v={"b_vx": 1.0}), h=0.3)
+    ends = time.monotonic() + 5.0
+    live.run(lambda: live.state.t > 0.5 or time.monotonic() > ends)
+    assert live.state.t == pytest.approx(0.6)

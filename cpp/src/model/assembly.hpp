@@ -13,6 +13,20 @@ namespace saltus {
 
 inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
+/// The item of this name. @throws ModelError with the names there are, which `others` calls so.
+template <class Items>
+auto& named(Items& items, const std::string& element, const std::string& name,
+            const std::string& others = "there") {
+  for (auto& item : items) {
+    if (item.name == name) return item;
+  }
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  throw ModelError(
+      "no " + element + " " + quoted(name) + "; " + others + " are " + list_names(names), element,
+      name);
+}
+
 /// "restitution 0.5 and friction 0.2".
 std::string in_words(const ContactProperties& properties);
 
@@ -28,6 +42,7 @@ class Assembly {
 
   void check();
   Model build();
+  static bool has_one_coordinate(JointType type);
 
  private:
   /// A frame under construction: placement X_JF in tree joint J.
@@ -50,7 +65,6 @@ class Assembly {
   void resolve_mimic();  // flattens chains of mimics into drives
   void number_coordinates();
   static std::vector<Axis> composition(JointType type);
-  static bool has_one_coordinate(JointType type);
   /// Index of a link, or ModelError: "<user> link "<name>", which does not exist; links are ...".
   int link_index(const std::string& name, const std::string& user, const std::string& element,
                  const std::string& culprit) const;

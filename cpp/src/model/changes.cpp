@@ -7,18 +7,6 @@
 namespace saltus {
 namespace {
 
-/// The item of this name. @throws ModelError with the names there are.
-template <class Items>
-auto& named(Items& items, const std::string& element, const std::string& name) {
-  for (auto& item : items) {
-    if (item.name == name) return item;
-  }
-  std::vector<std::string> names;
-  for (const auto& item : items) names.push_back(item.name);
-  throw ModelError("no " + element + " " + quoted(name) + "; there are " + list_names(names),
-                   element, name);
-}
-
 void check_name(const std::string& now, const std::string& element, const std::string& name) {
   if (now == name) return;
   throw ModelError(
@@ -42,7 +30,7 @@ ModelBuilder& ModelBuilder::change_link(const std::string& name,
   LinkSpec changed = link;
   change(changed);
   check_name(changed.name, "link", name);
-  check_inertia(changed.inertia, name);
+  check_inertia(changed.inertia, name, changed.check);
   link = std::move(changed);
   d_.source.clear();
   return *this;

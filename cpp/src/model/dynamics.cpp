@@ -64,24 +64,25 @@ Argument velocities(const Model& model, const RowsRef& x, const char* name) {
   return {x, model.n_v(), name, "velocities"};
 }
 
-}  // namespace
-
-MatX all_poses(const Model& model, const RowsRef& q) {
+/// Poses of `count` bodies, (rows, 16 count).
+MatX poses_by_row(const Model& model, const RowsRef& q, std::size_t count,
+                  MatX (Frames::*poses)() const) {
   const Eigen::Index rows = count_rows({coordinates(model, q)});
-  MatX out(rows, static_cast<Eigen::Index>(16 * model->links.size()));
+  MatX out(rows, static_cast<Eigen::Index>(16 * count));
   for_each_row(model, q, rows, [&](Eigen::Index row, const Frames& frames) {
-    out.row(row) = frames.all_poses().reshaped<Eigen::RowMajor>().transpose();
+    out.row(row) = (frames.*poses)().reshaped<Eigen::RowMajor>().transpose();
   });
   return out;
 }
 
+}  // namespace
+
+MatX all_poses(const Model& model, const RowsRef& q) {
+  return poses_by_row(model, q, model->links.size(), &Frames::all_poses);
+}
+
 MatX all_shape_poses(const Model& model, const RowsRef& q) {
-  const Eigen::Index rows = count_rows({coordinates(model, q)});
-  MatX out(rows, static_cast<Eigen::Index>(16 * model->shapes.size()));
-  for_each_row(model, q, rows, [&](Eigen::Index row, const Frames& frames) {
-    out.row(row) = frames.all_shape_poses().reshaped<Eigen::RowMajor>().transpose();
-  });
-  return out;
+  return poses_by_row(model, q, model->shapes.size(), &Frames::all_shape_poses);
 }
 
 MatX jacobians(const Model& model, const RowsRef& q, int link, const std::optional<Vec3>& p_L) {

@@ -9,11 +9,6 @@
 namespace saltus {
 namespace {
 
-bool is_one_degree(JointType type) {
-  return type == JointType::revolute || type == JointType::continuous ||
-         type == JointType::prismatic || type == JointType::helical;
-}
-
 [[noreturn]] void fail(const std::string& element, const std::string& name,
                        const std::string& what) {
   throw ModelError(element + " " + quoted(name) + " " + what, element, name);
@@ -53,7 +48,7 @@ void check_forces(const JointSpec& joint) {
     fail("joint", joint.name,
          "has dry friction, which only joints of one coordinate and planar ones can have");
   }
-  if ((joint.armature > 0 || joint.stiffness > 0) && !is_one_degree(joint.type)) {
+  if ((joint.armature > 0 || joint.stiffness > 0) && !Assembly::has_one_coordinate(joint.type)) {
     fail("joint", joint.name,
          "has an armature or a spring, which only joints of one coordinate can");
   }
@@ -61,6 +56,10 @@ void check_forces(const JointSpec& joint) {
 
 void check_actuator(const ActuatorSpec& a) {
   if (a.name.empty()) throw ModelError("an actuator has no name", "actuator", "");
+  for (const char* other : other_sources) {
+    if (a.name != other) continue;
+    fail("actuator", a.name, "has a name that work has already: damping, friction, applied");
+  }
   if (a.joints.empty()) fail("actuator", a.name, "moves no joint");
   for (const double number : {a.gain, a.bias, a.bias_l, a.bias_v}) {
     if (!std::isfinite(number)) fail("actuator", a.name, "has a gain or bias that is not finite");
@@ -80,12 +79,7 @@ void check_actuator(const ActuatorSpec& a) {
 }
 
 JointSpec& ModelBuilder::joint(const std::string& name) {
-  for (JointSpec& each : d_.joints) {
-    if (each.name == name) return each;
-  }
-  std::vector<std::string> names;
-  for (const JointSpec& each : d_.joints) names.push_back(each.name);
-  throw ModelError("no joint " + quoted(name) + "; joints are " + list_names(names), "joint", name);
+  return named(d_.joints, "joint", name, "joints");
 }
 
 ModelBuilder& ModelBuilder::add_actuator(const ActuatorSpec& actuator) {
@@ -96,7 +90,7 @@ ModelBuilder& ModelBuilder::add_actuator(const ActuatorSpec& actuator) {
   }
   for (const auto& [name, ratio] : actuator.joints) {
     const JointSpec& moved = joint(name);
-    if (is_one_degree(moved.type)) continue;
+    if (Assembly::has_one_coordinate(moved.type)) continue;
     fail("actuator", actuator.name,
          "moves joint " + quoted(name) + ", which has not one coordinate");
   }
@@ -113,8 +107,22 @@ ModelBuilder& ModelBuilder::add_motor(const std::string& name, const std::string
                        .upper = effort});
 }
 
+namespace {
+
+void check_servo_gain(const std::string& servo, const char* gain, double value) {
+  if (value >= 0) return;
+  std::ostringstream text;
+  text << "servo \"" << servo << "\" has " << gain << " = " << value
+       << "; a servo's gain is at least 0 (add_actuator takes any)";
+  throw ModelError(text.str(), "actuator", servo);
+}
+
+}  // namespace
+
 ModelBuilder& ModelBuilder::add_position_servo(const std::string& name, const std::string& joint,
                                                double kp, double kd, double effort) {
+  check_servo_gain(name, "kp", kp);
+  check_servo_gain(name, "kd", kd);
   return add_actuator({.name = name,
                        .joints = {{joint, 1}},
                        .gain = kp,
@@ -125,6 +133,7 @@ ModelBuilder& ModelBuilder::add_position_servo(const std::string& name, const st
 
 ModelBuilder& ModelBuilder::add_velocity_servo(const std::string& name, const std::string& joint,
                                                double kv, double effort) {
+  check_servo_gain(name, "kv", kv);
   return add_actuator(
       {.name = name, .joints = {{joint, 1}}, .gain = kv, .bias_v = -kv, .effort = effort});
 }
@@ -160,7 +169,7 @@ ModelBuilder& ModelBuilder::set_friction(const std::string& name, double frictio
 ModelBuilder& ModelBuilder::set_limit(const std::string& name, double lower, double upper,
                                       double restitution) {
   JointSpec& limited = joint(name);
-  if (!is_one_degree(limited.type))
+  if (!Assembly::has_one_coordinate(limited.type))
     fail("joint", name, "has not one coordinate that limits are of");
   if (!(lower <= upper)) {
     fail("joint", name, "has lower limit " + show(lower) + " and upper limit " + show(upper));

@@ -108,7 +108,12 @@ Range range_of(const JointSpec& joint, const Drive& drive) {
 void Assembly::add_limits() {
   m_.first_limit = m_.pairs.size();
   std::vector<Range> range(static_cast<std::size_t>(m_.tree.n_v));
-  for (const JointInfo& info : m_.joints) {
+  // what a joint says itself comes before what its mimics say
+  std::vector<JointInfo> joints = m_.joints;
+  std::stable_partition(joints.begin(), joints.end(), [&](const JointInfo& info) {
+    return base_[joint_.at(info.name)] == joint_.at(info.name);
+  });
+  for (const JointInfo& info : joints) {
     const int spec = joint_.at(info.name);
     const JointSpec& joint = d_.joints[spec];
     if (!has_one_coordinate(joint.type) || !has(joint.effects, JointEffects::limits)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "variational/step/step_input.hpp"
 #include "variational/terms/check_options.hpp"
 
 namespace saltus {
@@ -123,6 +124,10 @@ struct Driven {
 
   void record(Eigen::Index row, RunRows& rows) const {
     rows.work.row(row) = work;
+    record_control(row, rows);
+  }
+
+  void record_control(Eigen::Index row, RunRows& rows) const {
     if (input.control.size() > 0) rows.control.row(row) = input.control;
     if (input.control.size() == 0) rows.control.row(row).setZero();
   }
@@ -140,6 +145,7 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
   state.q = model.checked_q(start.q, "state.q");
   measure(*model, state, plan.step.h, meter);
   record(state, meter, 0, rows);
+  driven.record(0, rows);
   const StepReport nothing;
   bool is_measured = true;
   long k = 0;
@@ -147,8 +153,9 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
     if (policy && k % plan.control_every == 0) {
       if (!is_measured) measure(*model, state, plan.step.h, meter);
       policy({k, state, meter.v, k == 0 ? nothing : stepper.report()}, driven.input);
+      check_input(model, driven.input);  // before it is recorded
     }
-    if (is_measured) driven.record(outcome.rows - 1, rows);
+    if (is_measured) driven.record_control(outcome.rows - 1, rows);
     stepper.step(state, driven.input);
     driven.work += stepper.report().work;
     if (plan.record_contacts) {

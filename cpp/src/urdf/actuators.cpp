@@ -48,6 +48,7 @@ std::string obstacle(const XMLElement& transmission, const std::string& joint,
 /// Actuators of one name get their joint's: some files name them all "motor".
 std::string free_name(std::string name, const std::string& joint, const ModelDescription& d) {
   const auto is_taken = [&](const std::string& other) {
+    if (std::count(other_sources.begin(), other_sources.end(), other) > 0) return true;
     return std::any_of(d.actuators.begin(), d.actuators.end(),
                        [&](const ActuatorSpec& each) { return each.name == other; });
   };

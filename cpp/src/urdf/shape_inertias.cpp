@@ -38,6 +38,7 @@ ModelBuilder with_inertias_of_shapes(const Document& document, const MeshFolders
   for (const LinkSpec& link : d.links) {
     if (link.inertia.mass == 0) missing.insert(link.name);
   }
+  if (missing.empty()) return builder;
   Inertias of_shapes, of_visuals;
   for (const ShapeSpec& shape : d.shapes) {
     if (missing.count(shape.link) > 0) add(shape.link, shape.shape, shape.X_LG, of_shapes);

@@ -14,6 +14,7 @@ from saltus.plots.figure import new_figure
 from saltus.records.impacts import count_line
 from saltus.records.replace import check_folder, check_target
 from saltus.records.tables import counted
+from saltus.view.scene import pair_name
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
@@ -130,15 +131,15 @@ def info(chosen: argparse.Namespace) -> int:
     _print_pair_kinds(model)
     if chosen.pairs:
         pairs = Counter((min(gap.a, gap.b), max(gap.a, gap.b)) for gap in model.pairs)
-        rows = ([_named(model, pair), _kind(model, pair), str(n)] for pair, n in pairs.items())
+        rows = ([pair_name(model, pair), _kind(model, pair), str(n)] for pair, n in pairs.items())
         _print_table("pairs", ["name", "kind", "gaps"], rows)
     if chosen.gaps:
         _print_table("gaps", ["name"], ([name] for name in model.pair_names))
     return 0
 
 
-def load(chosen: argparse.Namespace) -> saltus.Model:
-    """Return the model of the file."""
+def load(chosen: argparse.Namespace, *, visuals: bool = False) -> saltus.Model:
+    """Return the model of the file; visuals are for who looks at it."""
     # Paths, whatever their names begin with: text is for programs.
     return saltus.load_urdf(
         str(Path(chosen.file).absolute()),
@@ -147,7 +148,7 @@ def load(chosen: argparse.Namespace) -> saltus.Model:
         srdf=str(Path(chosen.srdf).absolute()) if chosen.srdf else None,
         contact=chosen.contact,
         floor=chosen.floor,
-        visuals=False,
+        visuals=visuals,
         inertia=chosen.inertia,
         strict=chosen.strict,
     )
@@ -196,10 +197,6 @@ def _print_coordinates(model: saltus.Model) -> None:
 
     rows = ([c.name, c.joint, c.unit, limit(c.lower), limit(c.upper)] for c in model.coordinates)
     _print_table("coordinates", ["name", "joint", "unit", "lower", "upper"], rows)
-
-
-def _named(model: saltus.Model, pair: tuple[int, int]) -> str:
-    return " ~ ".join(model.shapes[i].name for i in pair)
 
 
 def _kind(model: saltus.Model, pair: tuple[int, int]) -> str:

@@ -9,19 +9,19 @@ import numpy as np
 
 import saltus
 from saltus.cli.commands import INTERRUPTED, load
-from saltus.records.replace import check_folder
+from saltus.records.replace import check_target
 from saltus.view import serve
+from saltus.view.browser import find_chromium
+from saltus.view.video import check_video
 
-STEP, LIVE_STEP = 0.01, 1 / 120  # s; live two steps are a frame
+DURATION, STEP, LIVE_STEP = 10.0, 0.01, 1 / 120  # s; live two steps are a frame
 MOVED = 1e-6  # [rad | m] less is rest
 NUDGES = (0.3, -0.3)  # [rad | m] what a joint at rest is started with, as far as its limits allow
 
 
 def view(chosen: argparse.Namespace) -> int:
     """Show a model or a run: in a browser, as a file, as a video, or live."""
-    for path in (chosen.html, chosen.video):
-        if path is not None:  # before a long run, not after it
-            check_folder(path)
+    _check_outputs(chosen)  # before a long run, not after it
     recorded = _is_recorded(Path(chosen.file))
     if recorded:
         _refuse_options(chosen)
@@ -43,7 +43,7 @@ def _live(chosen: argparse.Namespace) -> int:
     for name in ("html", "video"):
         if getattr(chosen, name):
             raise saltus.ModelError(f"--{name} writes a recorded run; it cannot go with --live")
-    model = load(chosen)
+    model = load(chosen, visuals=True)
     q = _start(model) | dict(chosen.q)
     state = model.state(q, dict(chosen.v))
 
@@ -54,7 +54,7 @@ def _live(chosen: argparse.Namespace) -> int:
         if not chosen.no_browser and not webbrowser.open(url):
             print("no browser was found: open the page by hand; Ctrl-C ends it", flush=True)
 
-    serve(model, state, h=chosen.h or LIVE_STEP, opened=opened)
+    serve(model, state, h=LIVE_STEP if chosen.h is None else chosen.h, opened=opened)
     return 0
 
 
@@ -67,6 +67,14 @@ def _give(chosen: argparse.Namespace, run: saltus.Trajectory) -> None:
         print(f"video: {chosen.video}")
     if not (chosen.html or chosen.video):
         run.show()
+
+
+def _check_outputs(chosen: argparse.Namespace) -> None:
+    if chosen.html is not None:
+        check_target(chosen.html)
+    if chosen.video is not None:
+        check_video(Path(chosen.video), chosen.rate, chosen.slow)
+        find_chromium()
 
 
 def _is_recorded(path: Path) -> bool:
@@ -88,6 +96,11 @@ def _refuse_options(chosen: argparse.Namespace) -> None:
         "--floor": chosen.floor,
         "--contact": chosen.contact is not None,
         "--srdf": chosen.srdf,
+        "--inertia": chosen.inertia != "checked",
+        "--strict": chosen.strict,
+        "--no-meshes": chosen.no_meshes,
+        "--duration": chosen.duration is not None,
+        "--h": chosen.h is not None,
     }
     names = [name for name, value in given.items() if value]
     if names:
@@ -97,7 +110,7 @@ def _refuse_options(chosen: argparse.Namespace) -> None:
 
 
 def _simulated(chosen: argparse.Namespace) -> saltus.Trajectory:
-    model = load(chosen)
+    model = load(chosen, visuals=True)
     if chosen.q or chosen.v:
         return _run(chosen, model, dict(chosen.q))
     start = _start(model)
@@ -138,8 +151,8 @@ def _run(chosen: argparse.Namespace, model: saltus.Model, q: dict[str, float]) -
         model,
         q=q,
         v=dict(chosen.v),
-        duration=chosen.duration,
-        h=chosen.h or STEP,
+        duration=DURATION if chosen.duration is None else chosen.duration,
+        h=STEP if chosen.h is None else chosen.h,
         certify=True,
         record_contacts=True,
     )

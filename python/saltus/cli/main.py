@@ -144,12 +144,12 @@ def _add_view(commands_of: Commands[Parser]) -> None:
         help="simulate while the page is open: joints on sliders, bodies pulled with the mouse",
     )
     add("--no-browser", action="store_true", help="with --live: print the page's address only")
-    _add_start(parser, h=None)  # live it is another
+    _add_start(parser, h=None, duration=None)  # a recorded run has its own, and live h is another
     _add_loading(parser)
     parser.set_defaults(command=looking.view)
 
 
-def _add_start(parser: Parser, h: float | None = 0.01) -> None:
+def _add_start(parser: Parser, h: float | None = 0.01, duration: float | None = 10.0) -> None:
     add = parser.add_argument
     add(
         "--set",
@@ -169,8 +169,9 @@ def _add_start(parser: Parser, h: float | None = 0.01) -> None:
         dest="v",
         help="velocity at the start [rad/s | m/s]; may be repeated, the others are 0",
     )
-    add("--duration", type=float, default=10.0, metavar="S", help="[s] default: %(default)s")
-    add("--h", type=float, default=h, metavar="S", help="[s] time step; default: 0.01")
+    add("--duration", type=float, default=duration, metavar="S", help="[s] default: 10")
+    live = "" if h else ", live 1/120"
+    add("--h", type=float, default=h, metavar="S", help=f"[s] time step; default: 0.01{live}")
 
 
 def _add_loading(parser: argparse.ArgumentParser) -> None:

@@ -112,7 +112,7 @@ def _write(run: Recording, file: h5py.File) -> None:
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
     options = None if run.model is None else urdf_options(run.model)
     if run.model is None or options is None:
-        file.attrs["model"] = "not in this file: it was built in code"
+        file.attrs["model"] = "not in this file: it was built in code, or changed after it was read"
         return
     file.attrs["model"] = "URDF text in urdf"
     file.attrs["gravity"] = run.model.gravity

@@ -197,8 +197,8 @@ class Recording:
         """Return the model; raise ModelError where there is none."""
         if self.model is None:
             raise ModelError(
-                "this trajectory has no model, which was built in code and not from URDF text; "
-                "give it to load: saltus.load(path, model=model)"
+                "this trajectory has no model, which was built in code, or changed after it was "
+                "read; give it to load: saltus.load(path, model=model)"
             )
         return self.model
 

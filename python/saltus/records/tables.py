@@ -41,12 +41,17 @@ LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
 
-def as_array(x: npt.ArrayLike | None, name: str, dimensions: int) -> Array:
-    """Return an array of finite numbers; raise ModelError, which names it, where it is none."""
+def numbers(name: str, x: npt.ArrayLike | None) -> Array:
+    """Return an array of numbers; raise ModelError, which names it, where it is none."""
     try:
-        array: Array = np.asarray(x, dtype=np.float64)
+        return np.asarray(x, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ModelError(f"{name} is no array of numbers: {error}") from None
+
+
+def as_array(x: npt.ArrayLike | None, name: str, dimensions: int) -> Array:
+    """Return an array of so many dimensions; raise ModelError, which names it, where it is none."""
+    array = numbers(name, x)
     if array.ndim != dimensions:
         shape = "(rows,)" if dimensions == 1 else "(rows, n)"
         raise ModelError(f"{name} has shape {array.shape}; it must have shape {shape}")

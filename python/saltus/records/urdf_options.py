@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from itertools import product
 from typing import TypedDict
 
@@ -47,12 +48,13 @@ def urdf_options(model: Model) -> UrdfOptions | None:
         return None
     # The joint that load_urdf added, if it did, is the only one below the model's root.
     types = {joint.type for joint in model.joints if joint.parent == model.links[0].name}
+    joints = model._moving_parts()[1]
+    effects_of = {joint[-1] for joint in joints} or {JointEffects.all}
     wanted = _parts(model)
     floors = {False, any(isinstance(s.shape, HalfSpace) for s in model.shapes)}
     roots = (JointType.fixed, *types)
-    acting = (JointEffects.all, JointEffects.none)
     for inertia, floor, meshes, root_joint, effects, solver in product(
-        InertiaUse, floors, (MeshUse.none, MeshUse.hull), roots, acting, TreeSolver
+        InertiaUse, floors, (MeshUse.none, MeshUse.hull), roots, effects_of, TreeSolver
     ):
         options: UrdfOptions = {
             "root_joint": root_joint,
@@ -78,11 +80,8 @@ def _parts(model: Model) -> tuple[object, ...]:
     # A half-space that was added may have the name of load_urdf's floor and be elsewhere.
     planes = [i for i, s in enumerate(model.shapes) if isinstance(s.shape, HalfSpace)]
     poses = [model.shape_poses(model.neutral()[np.newaxis], i).tolist() for i in planes]
-    masses = [link.mass for link in model.links]
-    names = masses, model.link_names, model.joint_names, model.coordinate_names, shapes, poses
+    moving = pickle.dumps(model._moving_parts())
     pairs: list[object] = [model.n_pairs, repr(model.default_contact)]
     if model.n_pairs <= LISTED_PAIRS:
         pairs = [(n, repr(model.contact_properties(i))) for i, n in enumerate(model.pair_names)]
-    acting = [x.tolist() for x in (model.damping, model.friction, model.armature)]
-    drives = model.limit_names, model.control_names, acting
-    return *names, *drives, pairs, [repr(trees) for trees in model.solvers]
+    return moving, shapes, poses, pairs, [repr(trees) for trees in model.solvers]

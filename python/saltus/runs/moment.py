@@ -19,7 +19,7 @@ class Moment:
         [rad/s | m/s] velocities.
     model : Model
     u : numpy.ndarray, shape (n_u,)
-        The controls of the step before; empty before the first.
+        The controls of the step before; empty until there are some.
     report : StepReport
         Of the step before: impacts, and the impulses that held contacts closed.
     step : int

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from saltus import _core
 from saltus._core import Model, ModelError, State
-from saltus.records.tables import Array, counted
+from saltus.records.tables import Array, counted, numbers
 
 Starts = Mapping[str, ArrayLike] | ArrayLike | None
 
@@ -70,7 +70,7 @@ def to_controls(
         if unknown:
             raise ModelError(f'no actuator "{unknown[0]}"; there are {", ".join(names) or "none"}')
         control = [control.get(name, 0.0) for name in names]
-    array = _numbers("control", control)
+    array = numbers("control", control)
     if not 1 <= array.ndim <= 3 or array.shape[-1] != len(names):
         raise ModelError(
             f"control has shape {array.shape}; it must have shape (n_u,), (runs, n_u) or "
@@ -90,7 +90,7 @@ def _to_array(space: _Space, x: Starts) -> Array:
         return space.default
     if isinstance(x, Mapping):
         return _from_mapping(space, x)
-    array = _numbers(space.what, x)
+    array = numbers(space.what, x)
     if array.ndim not in (1, 2) or array.shape[-1] != n:
         raise ModelError(
             f"{space.what} has shape {array.shape}; it must have shape (runs, {n}), a column for "
@@ -113,7 +113,7 @@ def _from_mapping(space: _Space, x: Mapping[str, ArrayLike]) -> Array:
     own = {name: _columns(space, name) for name in x}
     values = {}
     for name, columns in own.items():
-        value = _numbers(f'{space.what}["{name}"]', _plain(x[name]))
+        value = numbers(f'{space.what}["{name}"]', _plain(x[name]))
         if len(columns) == 1 and name in space.names:
             value = value[..., np.newaxis]
         if value.ndim not in (1, 2) or value.shape[-1] != len(columns):
@@ -135,10 +135,3 @@ def _from_mapping(space: _Space, x: Mapping[str, ArrayLike]) -> Array:
 def _plain(x: Any) -> Any:
     """Return the quaternions x y z w of a SciPy Rotation; other values as they are."""
     return x.as_quat() if hasattr(x, "as_quat") else x
-
-
-def _numbers(what: str, x: ArrayLike) -> Array:
-    try:
-        return np.asarray(x, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise ModelError(f"{what} is no array of numbers: {error}") from None

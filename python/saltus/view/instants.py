@@ -176,6 +176,8 @@ class _Places:
             self.model,
             h,
             own.law,
+            collisions=own.collisions,
+            strict=own.strict,
             order=own.order,
             max_iterations=own.max_iterations,
             max_impacts=own.max_impacts,

@@ -24,7 +24,9 @@ FRAME = 1 / 60  # s between frames
 BREATH = 0.002  # s between frames at least, in which others get the lock
 QUIET = 0.5  # s without news, after which a stream shows that it lives
 GRACE = 2.0  # s without a page until the server ends: a page may be loaded anew
-MOST_LATE = 0.1  # s that are made up for; what a slow model is later than that is dropped
+MOST_LATE = (
+    0.1  # s on the wall that are made up for; what a slow model is later than that is dropped
+)
 SPEEDS = (0.001, 10.0)
 
 
@@ -55,6 +57,7 @@ class Live:
         self.control = np.zeros(model.n_u)
         self.problem = ""
         self.impulses: list[list[Any]] = []
+        self.held: list[list[Any]] = []  # forces of the step just made
         self.lock = threading.Lock()
         self.asking = threading.Event()
         self.news = threading.Condition()
@@ -104,7 +107,8 @@ class Live:
             now = time.monotonic()
             with self.lock:
                 if self.playing:
-                    owed = min(owed + (now - last) * self.speed, MOST_LATE)
+                    most = max(MOST_LATE * self.speed, self.h)  # a long step is owed whole
+                    owed = min(owed + (now - last) * self.speed, most)
                     owed -= self._steps(owed)
                     moved = True
                 else:
@@ -119,9 +123,9 @@ class Live:
         with self.lock:
             text = self._frame()
             self.impulses = []
-        with self.news:
-            self.frame = (self.frame[0] + 1, text)
-            self.news.notify_all()
+            with self.news:  # within: an older frame must not come after a newer one
+                self.frame = (self.frame[0] + 1, text)
+                self.news.notify_all()
 
     def stream(self, out: BufferedIOBase) -> None:
         """Write frames to a page until it is closed."""
@@ -175,19 +179,14 @@ class Live:
             vectors = impact.lambdas[:, None] * impact.normals + impact.tangentials
             for pair, point, vector in zip(impact.pairs, impact.points, vectors, strict=True):
                 self.impulses.append(["impulse", pair, point.tolist(), vector.tolist()])
+        self.held = []
+        for c in self.stepper.report.contacts:
+            force = (c.impulse * c.normal + c.tangential) / self.h
+            self.held.append(["force", c.pair, c.point.tolist(), force.tolist()])
 
     def _frame(self) -> bytes:
         q = np.asarray(self.state.q)
         poses = np.ascontiguousarray(self.parts.poses(q[np.newaxis])[0], "<f4")
-        held = [
-            [
-                "force",
-                c.pair,
-                c.point.tolist(),
-                ((c.impulse * c.normal + c.tangential) / self.h).tolist(),
-            ]
-            for c in self.stepper.report.contacts
-        ]
         return json.dumps(
             {
                 "t": self.state.t,
@@ -198,7 +197,7 @@ class Live:
                 "speed": self.speed,
                 "values": [slider.get(q) for slider in self.sliders],
                 "control": self.control.tolist(),
-                "arrows": self.impulses[-200:] + held[:200],
+                "arrows": self.impulses[-200:] + self.held[:200],
                 "problem": self.problem,
                 "sent": time.time(),
             }
@@ -214,16 +213,20 @@ class Live:
 
     def _reset(self) -> None:
         self.state, self.pull, self.problem = self.start, None, ""
+        self.held = []
         self.control[:] = 0
 
     def _set_speed(self, asked: dict[str, Any]) -> None:
-        self.speed = float(np.clip(float(asked["value"]), *SPEEDS))
+        value = float(asked["value"])
+        if not np.isfinite(value):
+            raise ModelError(f"speed = {value:g}; it is a number")
+        self.speed = float(np.clip(value, *SPEEDS))
 
     def _set(self, asked: dict[str, Any]) -> None:
         slider = self.sliders[int(asked["slider"])]
         state = posture(self.model, self.state, slider, float(asked["value"]))
         Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
-        self.state, self.problem = state, ""
+        self.state, self.problem, self.held = state, "", []
 
     def _control(self, asked: dict[str, Any]) -> None:
         value = float(asked["value"])

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from saltus.records.replace import check_folder
+from saltus.records.replace import replacing
 from saltus.view.arrays import deflated
 
 BUNDLE = Path(__file__).parent / "page" / "bundle.js"
@@ -76,8 +76,8 @@ def page_of(scene: Mapping[str, Any], *, policy: str = POLICY) -> str:
 
 def write_page(path: str | os.PathLike[str], text: str) -> None:
     """Write a page; raise ModelError where no file can be written."""
-    check_folder(path)
-    Path(path).write_text(text, encoding="utf-8")
+    with replacing(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def in_frame(text: str, height: int) -> str:

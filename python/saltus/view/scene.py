@@ -15,7 +15,6 @@ from saltus.view.arrays import packed
 from saltus.view.instants import Instants, instants_of
 from saltus.view.parts import Parts, shapeless
 
-FORMAT = 1
 MOST_GAPS = 24  # pairs whose gaps the page can plot
 MOST_VALUES = 60_000  # of gaps in all
 
@@ -44,7 +43,6 @@ def scene_of_run(run: Recording, *, pairs: Sequence[str] | None = None) -> dict[
     parts = Parts(model)
     instants = instants_of(run)
     return {
-        "format": FORMAT,
         "version": __version__,
         "mode": "run",
         "title": model.name,
@@ -193,14 +191,15 @@ def _gaps(
         one, other = placed[a].shape, placed[b].shape
         for row in range(len(values)):
             values[row, column] = gap(one, poses[a][row], other, poses[b][row]).phi
-    return {"pairs": [_pair_name(model, pair) for pair in chosen], "phi": packed(values)}
+    return {"pairs": [pair_name(model, pair) for pair in chosen], "phi": packed(values)}
 
 
 def _poses_of(model: Model, q: Array, shape: int) -> list[Pose]:
     return [Pose(X[:3, 3], X[:3, :3]) for X in model.shape_poses(q, shape)]
 
 
-def _pair_name(model: Model, pair: tuple[int, int]) -> str:
+def pair_name(model: Model, pair: tuple[int, int]) -> str:
+    """Return the name of a pair of shapes, which are numbers in `model.shapes`."""
     return " ~ ".join(model.shapes[i].name for i in pair)
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from saltus._core import ModelError
 from saltus.records.recording import Recording
-from saltus.records.replace import check_folder
+from saltus.records.replace import check_target, replacing
 from saltus.view.browser import chromium_command, find_chromium
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.scene import scene_of_run
@@ -40,7 +40,6 @@ def video(
 ) -> None:
     """Write a video of a run; see `Trajectory.video`."""
     path = Path(path)
-    check_folder(path)
     job = _job(run, path, rate, slow, size, view, dark)
     program = find_chromium()
     scene = scene_of_run(run)
@@ -51,12 +50,18 @@ def video(
     text = page_of(scene, policy=LIVE_POLICY)
     with PageServer(lambda: text, posts) as server, _running(program, server.url) as process:
         data = office.wait(process)
-    part = path.with_name(path.name + ".part")  # a failure leaves no half file
-    try:
+    with replacing(path) as part:
         part.write_bytes(data)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+
+
+def check_video(path: Path, rate: float, slow: float) -> None:
+    """Raise ModelError on a file or numbers that no video can have."""
+    check_target(path)
+    if path.suffix.lower() != ".webm":
+        raise ModelError(f"{path}: videos are WebM files; their names end with .webm")
+    for name, value in (("rate", rate), ("slow", slow)):
+        if not (math.isfinite(value) and value > 0):
+            raise ModelError(f"{name} = {value:g}; it is a number above 0")
 
 
 def _job(
@@ -69,11 +74,7 @@ def _job(
     dark: bool,
 ) -> dict[str, Any]:
     """Return what the page is asked for; raise ModelError on what no video can have."""
-    if path.suffix.lower() != ".webm":
-        raise ModelError(f"{path}: videos are WebM files; their names end with .webm")
-    for name, value in (("rate", rate), ("slow", slow)):
-        if not (math.isfinite(value) and value > 0):
-            raise ModelError(f"{name} = {value:g}; it is a number above 0")
+    check_video(path, rate, slow)
     width, height = size
     if not (16 <= width <= MOST_PIXELS and 16 <= height <= MOST_PIXELS):
         raise ModelError(f"size = {width} x {height}; both are from 16 to {MOST_PIXELS} pixels")

@@ -103,6 +103,13 @@ TEST(Simulate, ProgressCanStopTheRunAndKeepsWhatIsDone) {
   EXPECT_EQ(run.q.rows(), run.t.size());
 }
 
+TEST(Simulate, ControlsOfAWrongSizeAreNamed) {
+  ModelBuilder builder(double_pendulum().description());
+  const Model model = builder.add_motor("push", "angle_0").build();
+  const Policy wrong = [](const Moment&, ForceInput& input) { input.control = VecX::Zero(3); };
+  EXPECT_THROW(simulate(model, model.state(), .1, {.policy = wrong}), ModelError);
+}
+
 TEST(Simulate, BadDurationsAndStepsAreNamed) {
   const Model model = cradle({.balls = 2});
   const State start = model.state();

@@ -3,6 +3,7 @@
 // A model keeps it, so that it can be sent elsewhere and built again, in the same bits.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -70,6 +71,9 @@ struct JointSpec {
   double limit_restitution = 0;    ///< at its stops
   JointEffects effects = JointEffects::all;
 };
+
+/// Work is told by actuator and by these, whose names actuators cannot have.
+inline constexpr std::array<const char*, 3> other_sources{"damping", "friction", "applied"};
 
 /// A motor, a servo or any force that is affine in what it moves: force_model.hpp.
 struct ActuatorSpec {

@@ -16,23 +16,33 @@
 //       <group name="pins" links="pin_1 pin_2"/>            a link is in one group at most
 //       <exclude group1="pins" group2="pins"/>              nor between links of these groups
 //       <adjacent_links gaps="watched"/>       see ModelBuilder::set_adjacent_links
+//       <motor name="m" joint="j" gear="1" effort="2"/>           see ModelBuilder::add_motor
+//       <position_servo name="m" joint="j" kp="90" kd="3"/>       likewise; effort may be said
+//       <velocity_servo name="m" joint="j" kv="5"/>
+//       <joint name="j" armature="0.1" stiffness="2" rest="0" limit_restitution="0.5"/>   of these
+//                                                damping and friction what is said is set
 //     half_space: all three may be left out (the values above; the name is then "half_space").
 //
+// A simple `<transmission>` is a motor of its actuator's name; one warning names the others.
+//
 // Collision meshes (STL, OBJ, DAE) become their convex hulls, and one warning names them; one tells
-// of those that are not found. A mesh that is there and cannot be read is an error. Visuals are
-// kept for pictures; those that are missing or broken are left out, which one warning tells.
+// of those that are not found or of another format. A flat one becomes a thin plate. A mesh that is
+// there and cannot be read is an error. Visuals are kept for pictures; those that are missing or
+// broken are left out, which one warning tells.
 //
 // Wrong, and read with a warning unless `strict` is said, as other readers do: an inertia without
 // mass of what is fixed or welded; moments of inertia that are off by 2 % of the greatest; sizes of
 // 0 (contact points), which are 10^-5 m; limits that are missing or crossed, which are none;
 // `<mimic>` of a joint that is fixed, which stands still, or is not there; names with expressions
-// of xacro; zero bytes at the end; bytes that are no UTF-8. Other encodings are read by the XML
-// declaration. Warnings of a kind are one line: the first, and how many more.
+// of xacro; commas between numbers, and more of them than needed; a second element where one is
+// meant; products of inertia that are missing; zero bytes at the end; bytes that are no UTF-8.
+// Other encodings are read by the XML declaration. Warnings of a kind are one line: the first, and
+// how many more.
 //
 // Not used, and named in a warning: shapes without a gap function, elements and attributes that
-// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: transmissions, safety
-// controllers, limits of acceleration and jerk, and other programs' elements (gazebo, sensor,
-// `ns:name`). The text itself stays available as the model's `source`.
+// URDF does not know, `<mimic>` of a fixed joint. Skipped without a word: safety controllers,
+// limits of acceleration and jerk, and other programs' elements (gazebo, sensor, `ns:name`). The
+// text itself stays available as the model's `source`.
 #pragma once
 
 #include <optional>

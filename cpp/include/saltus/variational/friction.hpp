@@ -13,8 +13,8 @@
 // Restitution is Poisson's: the normal impulse of the expansion is e times that of the compression.
 // If normal and tangential motion are not coupled (spheres, discs) this is Newton's u+ = -e u-; if
 // they are, Newton's could gain energy. The outcome for several contacts is a convention, as it is
-// without friction (cascade.hpp): one after another, in the order asked for (`symmetric` is
-// `fastest` here).
+// without friction (cascade.hpp): one after another in the order asked for, or with `symmetric` all
+// that approach at once.
 #pragma once
 
 #include <vector>

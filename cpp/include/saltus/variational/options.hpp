@@ -10,6 +10,8 @@
 namespace saltus {
 
 /// The energy that an elastic impact conserves (theory, section 5), and that restitution reduces.
+/// Where forces act that are not in L (damping, motors, wrenches), all built-in laws are
+/// nodal_energy, with the arcs of L: impacts tell so (`fallback`).
 enum class ImpactLaw {
   nodal_energy,     ///< H(q, p+) = H(q, p-) at the impact: lambda = -2u/G, always solvable
   discrete_energy,  ///< the paper's (11c): E_d of the arcs on both sides equal; exactly symplectic

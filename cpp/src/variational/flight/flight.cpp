@@ -63,14 +63,15 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
   ArcWork& work = f.work;
   f.start_v = work.arc.v;
   const Pair& pair = node.pool[hit.slot];
-  const bool found_before = f.closing == hit.slot;
-  const bool ends_there = found_before && std::abs(phi_at_end(scene, pair, work)) <= pair.touch;
+  const bool ends_there =
+      f.ends_at == hit.slot && std::abs(phi_at_end(scene, pair, work)) <= pair.touch;
   f.closing = hit.slot;
   ImpactTime found = find_impact_time(scene, hit, node, memory, f);
   if (found == ImpactTime::found && grazes_with_axis(scene, hit.slot, node, work)) {
     found = ImpactTime::missed;
   }
   if (found == ImpactTime::found) {
+    f.ends_at = hit.slot;
     // Nothing more to find: both ends of its chord touch, or the arc ended at it already (far from
     // the origin the chord tells gaps apart no better than their rounding, and the end of an arc
     // that many rows hold is no sharper than what its Newton iteration leaves).
@@ -126,6 +127,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   ArcWork& work = f.work;
   f.skips.start(node.pool.size());
   f.settlings.clear();
+  f.closing = f.ends_at = -1;
   work.line.use = LaunchLine::Use::none;
   f.has_missed_energy = false;
   make_rows(scene, left, node, memory, work.rows);

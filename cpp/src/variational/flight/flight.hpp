@@ -44,6 +44,7 @@ struct Flight {
 
   ArcWork work;                     ///< the arc flown, and what held contacts closed in it
   int closing = -1;                 ///< slot of the pair whose impact was sought last
+  int ends_at = -1;                 ///< slot of the pair whose impact ended the last shorter arc
   std::vector<Settling> settlings;  ///< of this flight; `pair` is a slot
   bool has_missed_energy = false;   ///< the launch could not be met: nodal_energy was used
 

@@ -9,6 +9,7 @@
 #include "variational/law/contact_problem.hpp"
 #include "variational/law/coulomb.hpp"
 #include "variational/law/friction_together.hpp"
+#include "variational/law/pile.hpp"
 
 namespace saltus {
 namespace {
@@ -32,11 +33,6 @@ int next_contact(const ContactBlocks& W, ImpactOrder order, const std::vector<Ve
 /// Dry friction of a joint: as much as stops it, and `bound` at most.
 Vec3 stop_joint(double W, double u, double bound) {
   return {std::clamp(-u / W, -bound, bound), 0, 0};
-}
-
-/// Rates of all by an impulse at one.
-void feel(const ContactBlocks& W, int contact, const Vec3& p, std::vector<Vec3>& u) {
-  for (int k = W.start[contact]; k < W.start[contact + 1]; ++k) u[W.contact[k]] += W.block[k] * p;
 }
 
 ContactBlocks blocks_of(const MatX& W, const VecX& rest, const VecRef& e, const VecRef& mu) {
@@ -104,7 +100,7 @@ bool collide(const ContactBlocks& W, const CascadeOptions& options, PileScratch&
     if (count == options.max_impulses) return false;
     const Vec3 p = collide_contact(W.own[i], u[i], W.friction[i], W.restitution[i]);
     const double after = -W.restitution[i] * u[i][0];
-    feel(W, i, p, u);
+    add_rates(W, i, p, u);
     if (W.friction[i] == 0) u[i][0] = after;  // exact, without the rounding of W p
     impulses.push_back({i, p});
   }
@@ -119,7 +115,7 @@ int settle(const ContactBlocks& W, int most_sweeps, std::vector<Vec3>& u, std::v
       const Vec3 stopped = bound > 0 ? stop_joint(W.own[i](0, 0), free[0], bound)
                                      : stop_contact(W.own[i], free, W.friction[i]);
       const Vec3 dp = stopped - p[i];
-      feel(W, i, dp, u);
+      add_rates(W, i, dp, u);
       p[i] += dp;
       change = std::max(change, dp.cwiseAbs().maxCoeff());
       size = std::max(size, std::abs(p[i][0]));

@@ -3,34 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/law/contact_parts.hpp"
 #include "variational/law/coulomb.hpp"
 
 namespace saltus {
 namespace {
 
-using Part = std::vector<int>;
-
-/// The contacts that approach, each with those of them that it feels, directly or through others.
 std::vector<Part> approaching_parts(const ContactBlocks& W, const std::vector<Vec3>& u) {
   std::vector<char> in(u.size());
   for (int i = 0; i < W.size(); ++i) in[i] = u[i][0] < -W.rest[i];
-  std::vector<Part> parts;
-  for (int seed = 0; seed < W.size(); ++seed) {
-    if (!in[seed]) continue;
-    Part part{seed};
-    in[seed] = 0;
-    for (std::size_t at = 0; at < part.size(); ++at) {
-      for (int k = W.start[part[at]]; k < W.start[part[at] + 1]; ++k) {
-        const int j = W.contact[k];
-        if (!in[j] || W.block[k].isZero(0)) continue;
-        in[j] = 0;
-        part.push_back(j);
-      }
-    }
-    std::sort(part.begin(), part.end());
-    parts.push_back(std::move(part));
-  }
-  return parts;
+  return saltus::parts_of(W.start, W.contact, [&](int k) { return !W.block[k].isZero(0); }, in);
 }
 
 /// W of some contacts.
@@ -54,23 +36,11 @@ ContactBlocks blocks_of(const ContactBlocks& W, const Part& part) {
   return out;
 }
 
-/// By the energy that each contact takes up.
 double shared_restitution(const ContactBlocks& W, const std::vector<Vec3>& before,
                           const std::vector<Vec3>& p) {
-  const std::vector<double>& e = W.restitution;
-  if (std::all_of(e.begin(), e.end(), [&](double each) { return each == e[0]; })) return e[0];
-  double square = 0, sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double weight = p[i][0] * std::abs(before[i][0]);
-    square += e[i] * e[i] * weight;
-    sum += weight;
-  }
-  return sum > 0 ? std::sqrt(square / sum) : 0;
-}
-
-/// u of all contacts by a change of one's impulse.
-void feel(const ContactBlocks& W, int i, const Vec3& dp, std::vector<Vec3>& u) {
-  for (int k = W.start[i]; k < W.start[i + 1]; ++k) u[W.contact[k]] += W.block[k] * dp;
+  VecX energy(W.size());
+  for (int i = 0; i < W.size(); ++i) energy[i] = p[i][0] * std::abs(before[i][0]);
+  return saltus::shared_restitution(Eigen::Map<const VecX>(W.restitution.data(), W.size()), energy);
 }
 
 /// The tangential impulses of least kinetic energy with these normal ones: each in its disc, there
@@ -86,7 +56,7 @@ void slide_least(const ContactBlocks& W, std::vector<Vec3>& u, std::vector<Vec3>
       const Vec2 held = p[i].tail<2>();
       const Vec2 free = u[i].tail<2>() - own * held;
       const Vec2 now = least_in_disc(own, free, W.friction[i] * p[i][0]);
-      feel(W, i, Vec3(0, now[0] - held[0], now[1] - held[1]), u);
+      add_rates(W, i, Vec3(0, now[0] - held[0], now[1] - held[1]), u);
       p[i].tail<2>() = now;
       change = std::max(change, (now - held).norm());
       size = std::max(size, p[i][0]);
@@ -140,7 +110,7 @@ bool collide_together(const ContactBlocks& W, int max_impulses, PileScratch& pil
       }
       for (std::size_t k = 0; k < part.size(); ++k) {
         if (p[k].isZero(0)) continue;
-        feel(W, part[k], p[k], u);
+        add_rates(W, part[k], p[k], u);
         impulses.push_back({part[k], p[k]});
       }
     }

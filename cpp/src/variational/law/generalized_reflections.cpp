@@ -3,47 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "variational/law/contact_parts.hpp"
 #include "variational/law/contact_problem.hpp"
 #include "variational/law/contact_qp.hpp"
 
 namespace saltus {
 namespace {
 
-using Part = std::vector<int>;
-
-/// The contacts with `in`, each with those that it feels, directly or through others.
-std::vector<Part> parts_of(const ContactMatrix& G, std::vector<char> in) {
-  std::vector<Part> parts;
-  for (int seed = 0; seed < G.size(); ++seed) {
-    if (!in[seed]) continue;
-    Part part{seed};
-    in[seed] = 0;
-    for (std::size_t at = 0; at < part.size(); ++at) {
-      for (int k = G.start[part[at]]; k < G.start[part[at] + 1]; ++k) {
-        const int j = G.column[k];
-        if (!in[j] || G.value[k] == 0) continue;
-        in[j] = 0;
-        part.push_back(j);
-      }
-    }
-    std::sort(part.begin(), part.end());
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-/// The e of a part, by the energy that each contact takes up.
-double shared_restitution(const VecX& e, const VecX& lambda, const VecX& u) {
-  if ((e.array() == e[0]).all()) return e[0];
-  const VecX weight = lambda.cwiseProduct(u.cwiseAbs());
-  return std::sqrt(e.cwiseAbs2().dot(weight) / weight.sum());
+std::vector<Part> parts_of(const ContactMatrix& G, const std::vector<char>& in) {
+  return saltus::parts_of(G.start, G.column, [&](int k) { return G.value[k] != 0; }, in);
 }
 
 /// One reflection; u of the part that it belongs to and of all others that feel it.
 void reflect(const ContactMatrix& G, const Part& part, const VecRef& restitution,
              Eigen::Ref<VecX> u, std::vector<Impulse>& impulses) {
   const VecX before = u(part), lambda = contact_multipliers(dense_part(G, part), before);
-  const double e = shared_restitution(restitution(part), lambda, before);
+  const double e = shared_restitution(restitution(part), lambda.cwiseProduct(before.cwiseAbs()));
   for (std::size_t row = 0; row < part.size(); ++row) {
     const int i = part[row];
     const double impulse = (1 + e) * lambda[static_cast<Eigen::Index>(row)];

@@ -239,10 +239,12 @@ double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& 
   return one.worst;
 }
 
+void add_rates(const ContactBlocks& W, int contact, const Vec3& p, std::vector<Vec3>& u) {
+  for (int k = W.start[contact]; k < W.start[contact + 1]; ++k) u[W.contact[k]] += W.block[k] * p;
+}
+
 void add_rates(const ContactBlocks& W, const std::vector<Vec3>& p, std::vector<Vec3>& u) {
-  for (int k = 0; k < W.size(); ++k) {
-    for (int e = W.start[k]; e < W.start[k + 1]; ++e) u[W.contact[e]] += W.block[e] * p[k];
-  }
+  for (int i = 0; i < W.size(); ++i) add_rates(W, i, p[i], u);
 }
 
 int most_lawless(const ContactBlocks& W, const std::vector<Vec3>& u, const std::vector<Vec3>& p) {

@@ -68,7 +68,8 @@ struct Settled : Lawlessness {
 /// |p - P(p - u)| of one contact, scaled, and of rates u that p has been added to.
 double lawlessness_of(const ContactBlocks& W, int contact, const Vec3& u, const Vec3& p);
 
-/// u += W p
+/// u += W p, p of one contact or of all
+void add_rates(const ContactBlocks& W, int contact, const Vec3& p, std::vector<Vec3>& u);
 void add_rates(const ContactBlocks& W, const std::vector<Vec3>& p, std::vector<Vec3>& u);
 
 /// The contact that is farthest from the law, for messages.

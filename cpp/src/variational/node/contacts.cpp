@@ -106,8 +106,10 @@ void remove_contact(int at, Node& node) {
 /// point in the arc from here.
 void leave_points_to_rim(int rim_contact, const FirstOf& first, Node& node) {
   constexpr double same_point = 1e-3;  // of the radius: rows of points so near are equal
-  const Contact rim = node.contacts[rim_contact];
-  const Pair& pair = node.pool[rim.slot];
+  // by value: removing contacts moves the others
+  const double phi = node.contacts[rim_contact].phi;
+  const Vec3 point_W = node.contacts[rim_contact].point_W;
+  const Pair& pair = node.pool[node.contacts[rim_contact].slot];
   const auto is_on_rim = [&](int slot) {
     const Pair& other = node.pool[slot];
     const auto* corner = std::get_if<Corner>(&other.kind);
@@ -117,12 +119,12 @@ void leave_points_to_rim(int rim_contact, const FirstOf& first, Node& node) {
   const double apart = same_point * std::get<Cylinder>(pair.on_a.shape).radius;
   for (std::size_t i = first.silent; i < node.silent.size(); ++i) {
     const int slot = node.silent[i];
-    if (!is_on_rim(slot) || node.sunk[slot] > rim.phi + 2 * pair.touch) continue;
+    if (!is_on_rim(slot) || node.sunk[slot] > phi + 2 * pair.touch) continue;
     node.sunk[slot] = -std::numeric_limits<double>::infinity();
   }
   for (int i = node.touching - 1; i >= first.contact; --i) {
     const Contact& c = node.contacts[i];
-    if (!is_on_rim(c.slot) || (c.point_W - rim.point_W).norm() > apart) continue;
+    if (!is_on_rim(c.slot) || (c.point_W - point_W).norm() > apart) continue;
     node.sunk[c.slot] = -std::numeric_limits<double>::infinity();
     node.silent.push_back(c.slot);
     remove_contact(i, node);

@@ -63,14 +63,19 @@ void Stepper::Impl::lift_out() {
   q_sunk = node.q;
   p_sunk = node.p;
   integrate(scene.model.tree, q_sunk, 1, lift, unlocated.q_end);
-  if (!place_with_contacts(unlocated.q_end, p_sunk)) return;
+  if (!place_with_contacts(unlocated.q_end, p_sunk)) return place_back();
   const double T = 0.5 * node.p.dot(node.v), gain = node_energy(scene, node) - most;
   if (!(depth(node) < before) || gain > T) {
-    place_with_contacts(q_sunk, p_sunk);
+    place_back();
   } else if (gain > 0) {
     p_sunk *= std::sqrt(1 - gain / T);
-    place_with_contacts(unlocated.q_end, p_sunk);
+    if (!place_with_contacts(unlocated.q_end, p_sunk)) place_back();
   }
+}
+
+/// Where the arc ended, which was placed once.
+void Stepper::Impl::place_back() {
+  if (!place_with_contacts(q_sunk, p_sunk)) fail(FlightOutcome::not_converged);
 }
 
 bool Stepper::Impl::place_with_contacts(const VecX& q, const VecX& p) {

@@ -1,5 +1,6 @@
 // Overlap at the start: of parts that touch, and of whole shapes, whose parts may all lie on faces.
 #include <algorithm>
+#include <iomanip>
 #include <map>
 #include <sstream>
 
@@ -53,7 +54,7 @@ void check_limits(const ModelData& model, const VecX& q) {
     if (limit.stop.side * (x - bound) >= -overlap_touches * touch) continue;
     const std::string& joint = model.coordinates[static_cast<std::size_t>(limit.coordinate)].joint;
     std::ostringstream text;
-    text << "joint \"" << joint << "\" starts at " << x << ", beyond its "
+    text << std::setprecision(12) << "joint \"" << joint << "\" starts at " << x << ", beyond its "
          << (limit.stop.side > 0 ? "lower" : "upper") << " limit " << bound
          << "; start within its limits (neutral() is), or load the model without limits "
             "(effects)";

@@ -152,8 +152,16 @@ void Stepper::Impl::fail_energy(double gain) {
 void Stepper::Impl::fail_sinking(const Contact& contact) {
   halves_help = blames_contact = true;
   std::ostringstream text, h;
-  text << name_of(contact.slot) << " overlap by " << -contact.phi
-       << " m where the arc up to t = " << node.t << " s ends";
+  text << name_of(contact.slot);
+  const int pair = node.pool.number(contact.slot);
+  if (scene.model.is_limit(pair)) {
+    const int coordinate = scene.model.limit(pair).coordinate;
+    const Unit unit = scene.model.coordinates[static_cast<std::size_t>(coordinate)].unit;
+    text << " is passed by " << -contact.phi << (unit == Unit::metre ? " m" : " rad");
+  } else {
+    text << " overlap by " << -contact.phi << " m";
+  }
+  text << " where the arc up to t = " << node.t << " s ends";
   h << "a smaller h helps, h = " << scene.options.h << " s";
   raise(text.str(), h.str(), flight.work.arc.iterations);
 }

@@ -1,10 +1,11 @@
 // What drives a step, and the work that it does.
+#include "variational/step/step_input.hpp"
+
 #include <cmath>
 
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
-namespace {
 
 void check_input(const Model& model, const ForceInput& input) {
   const int n_u = model->forces.n_u();
@@ -19,8 +20,6 @@ void check_input(const Model& model, const ForceInput& input) {
     if (!is_finite) throw ModelError("a wrench has a number that is not finite");
   }
 }
-
-}  // namespace
 
 void Stepper::Impl::take(const ForceInput& with) {
   check_input(scene.shared, with);

@@ -214,10 +214,10 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
 void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
-  check_energy();
-  check_gaps();
   tell_half_kick(kick, report);
   report.work[scene.model.forces.n_u() + 1] += kick.dry_work;
+  check_energy();
+  check_gaps();
   if (!has_approach(node)) check_idle_arcs();
   if (report.iterations > most_work()) fail_work();
 }

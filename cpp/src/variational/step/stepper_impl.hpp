@@ -61,6 +61,7 @@ struct Stepper::Impl {
   void check_idle_arcs();
   void lift_out();  // lift.cpp
   bool place_with_contacts(const VecX& q, const VecX& p);
+  void place_back();
 
   [[noreturn]] void fail(FlightOutcome outcome);
   [[noreturn]] void raise(const std::string& why, const std::string& advice, int count);

@@ -15,7 +15,7 @@ class Live {
     this.frames = 0;
     this.lags = [];
     this.busy = false; // a wish is on its way
-    this.waiting = null; // the newest that waits for it
+    this.waiting = []; // those that wait for it, in order
     this.drawn = 0;
     this.impulses = [];
     this.take();
@@ -31,19 +31,16 @@ class Live {
     window.addEventListener('pagehide', () => this.source.close());
   }
 
-  // Sends a wish; of those that come while one is on its way the newest is kept.
+  // Sends wishes one after another. Of a slider that moves the newest is kept.
   async wish(what) {
-    if (this.busy) {
-      if (this.waiting && this.waiting.do !== what.do) await this.send(this.waiting);
-      this.waiting = what;
-      return;
-    }
+    const last = this.waiting.at(-1);
+    const isNewer = ['do', 'slider', 'actuator'].every((key) => last?.[key] === what[key]);
+    if (isNewer && what.do !== 'step') this.waiting.pop();
+    this.waiting.push(what);
+    if (this.busy) return;
     this.busy = true;
-    await this.send(what);
+    while (this.waiting.length > 0) await this.send(this.waiting.shift());
     this.busy = false;
-    const next = this.waiting;
-    this.waiting = null;
-    if (next) this.wish(next);
   }
 
   async send(what) {

@@ -6,7 +6,7 @@ const PAD = { left: 46, right: 8, top: 8, bottom: 18 };
 const DASHES = [[], [6, 3], [2, 2]]; // curves differ by more than colour
 
 export class Plot {
-  // curves: () => [{ label, x, y, jumps }]; x and y are arrays of equal length.
+  // curves: () => [{ x, y }]; x and y are arrays of equal length.
   constructor(canvas, unit, curves, clock, least = 0) {
     this.least = least; // what is smaller is rounding
     this.canvas = canvas;

@@ -3,6 +3,8 @@
 import { $ } from './bar.js';
 import { makeVideo } from './video.js';
 
+const HEARTBEAT = 5000; // ms between words that a frame was made
+
 function download(blob, name) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
@@ -41,13 +43,12 @@ export async function doJob(page, job) {
   try {
     document.body.classList.add('bare');
     page.setTheme(job.theme);
-    page.showBodies(job.bodies ?? page.bodiesShown);
     page.look(job.view);
     if (job.follow !== null) page.follow(job.follow);
     let last = 0;
     const blob = await makeVideo(page, job, (part) => {
-      if (part < last + 0.02) return;
-      last = part;
+      if (performance.now() < last + HEARTBEAT) return;
+      last = performance.now();
       send('progress', String(part));
     });
     await send('video', blob);

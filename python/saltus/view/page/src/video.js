@@ -15,14 +15,14 @@ export function frameTimes(start, end, rate, slow) {
   return Array.from({ length: count }, (_, k) => start + k / (rate * slow));
 }
 
-// options: { rate, slow, width, height, start, end }; returns a Blob.
+// options: { rate, slow, width, height }; returns a Blob.
 export async function makeVideo(page, options, progress = () => {}) {
   if (typeof VideoEncoder === 'undefined') {
     throw new Error('This browser has no video encoder (WebCodecs); Chromium has one.');
   }
   const { rate, slow } = options;
   const [width, height] = [options.width, options.height].map((x) => Math.max(2, 2 * Math.round(x / 2)));
-  const times = frameTimes(options.start ?? page.clock.start, options.end ?? page.clock.end, rate, slow);
+  const times = frameTimes(page.clock.start, page.clock.end, rate, slow);
   const [codec, mark] = await codecFor(width, height, rate);
   const target = new ArrayBufferTarget();
   const muxer = new Muxer({ target, video: { codec: mark, width, height, frameRate: rate } });
