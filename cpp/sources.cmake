@@ -28,6 +28,8 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/partials.cpp
   # force
   cpp/src/force/force_model.cpp
+  # constraint
+  cpp/src/constraint/equality.cpp
   # collision
   cpp/src/collision/shapes/box.cpp
   cpp/src/collision/shapes/capsule.cpp
@@ -74,6 +76,8 @@ set(SALTUS_SOURCES
   cpp/src/model/force_verbs.cpp
   cpp/src/model/joint_forces.cpp
   cpp/src/model/frames.cpp
+  cpp/src/model/close_loops.cpp
+  cpp/src/model/loops.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
@@ -105,12 +109,15 @@ set(SALTUS_SOURCES
   cpp/src/variational/overlap/overlap.cpp
   cpp/src/variational/node/contact_vector.cpp
   cpp/src/variational/node/delassus.cpp
+  cpp/src/variational/node/equalities.cpp
+  cpp/src/variational/node/equality_solver.cpp
   cpp/src/variational/node/contacts.cpp
   cpp/src/variational/node/node.cpp
   cpp/src/variational/node/pair_pool.cpp
   cpp/src/variational/node/scene.cpp
   cpp/src/variational/arc/arc.cpp
   cpp/src/variational/arc/arc_forces.cpp
+  cpp/src/variational/arc/arc_loops.cpp
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
   cpp/src/variational/arc/finish.cpp
@@ -153,6 +160,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/geometry.cpp
   cpp/src/urdf/joint_elements.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/loops.cpp
   cpp/src/urdf/mesh_checks.cpp
   cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
@@ -189,6 +197,7 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_forces.cpp
+  python/bindings/bind_loops.cpp
   python/bindings/bind_motion.cpp
   python/bindings/bind_visuals.cpp
   python/bindings/pickle.cpp

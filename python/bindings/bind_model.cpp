@@ -238,6 +238,7 @@ void bind_copies(py::class_<Model>& c) {
 void bind_model(py::module_& m) {
   bind_contact_properties(m);
   bind_joint_effects(m);
+  bind_loop_types(m);
   bind_state(m);
   bind_parts(m);
   bind_links(m);
@@ -249,6 +250,7 @@ void bind_model(py::module_& m) {
   bind_copies(c);
   bind_configurations(c);
   bind_model_forces(c);
+  bind_model_loops(c, m);
   c.def(
        "state",
        [](const Model& model, const Coordinates& q, const Velocities& v, double t) {

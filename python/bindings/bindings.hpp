@@ -33,6 +33,9 @@ void bind_visuals(py::module_& m);  ///< called by bind_model
 void bind_model_builder(py::module_& m);
 void bind_joint_effects(py::module_& m);                         ///< called by bind_model
 void bind_model_forces(py::class_<Model>& c);                    ///< likewise
+void bind_loop_types(py::module_& m);                            ///< likewise
+void bind_model_loops(py::class_<Model>& c, py::module_& m);     ///< likewise
+void bind_add_loops(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
@@ -105,6 +108,9 @@ struct Choice {
       py::detail::make_caster<Enum>::name + py::detail::const_name(" | str");
   py::object value;
 };
+
+/// Rows of loops by name, for reports.
+std::map<std::string, VecX> by_loop(const Model& model, const VecX& rows);
 
 /// The member of `kind` that `x` is or names; `what` names the argument in messages.
 /// @throws ModelError on a name that no member has, TypeError on what is neither.

@@ -31,6 +31,10 @@ using Joints =
 using A = ActuatorSpec;
 using Actuators = Listed<A, &A::name, &A::joints, &A::gain, &A::bias, &A::bias_l, &A::bias_v,
                          &A::effort, &A::lower, &A::upper>;
+using Loops = Listed<LoopSpec, &LoopSpec::name, &LoopSpec::type, &LoopSpec::a, &LoopSpec::b,
+                     &LoopSpec::distance>;
+using Couplings =
+    Listed<CouplingSpec, &CouplingSpec::joint, &CouplingSpec::of, &CouplingSpec::polynomial>;
 using Shapes = Listed<ShapeSpec, &ShapeSpec::link, &ShapeSpec::name, &ShapeSpec::shape,
                       &ShapeSpec::X_LG, &ShapeSpec::material, &ShapeSpec::contact>;
 
@@ -82,15 +86,16 @@ void use_one_protocol(const py::module_& m) {
 py::tuple to_tuple(const ModelDescription& d) {
   const FilterSpec& f = d.filter;
   const MaterialSpec& m = d.materials;
-  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
-                        Joints::from(d.joints), Shapes::from(d.shapes),
-                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings,
-                        Actuators::from(d.actuators), Visuals::from(d.visuals));
+  return py::make_tuple(
+      d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
+      Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators),
+      Visuals::from(d.visuals), Loops::from(d.loops), Couplings::from(d.couplings));
 }
 
 py::tuple moving_parts(const ModelDescription& d) {
-  return py::make_tuple(Links::from(d.links), Joints::from(d.joints), Actuators::from(d.actuators));
+  return py::make_tuple(Links::from(d.links), Joints::from(d.joints), Actuators::from(d.actuators),
+                        Loops::from(d.loops), Couplings::from(d.couplings));
 }
 
 ModelDescription to_description(const py::tuple& t) {
@@ -110,6 +115,8 @@ ModelDescription to_description(const py::tuple& t) {
   d.warnings = t[10].cast<std::vector<std::string>>();
   d.actuators = Actuators::to(t[11]);
   d.visuals = Visuals::to(t[12]);
+  d.loops = Loops::to(t[13]);
+  d.couplings = Couplings::to(t[14]);
   return ModelBuilder::checked(d);
 }
 

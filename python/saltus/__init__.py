@@ -16,6 +16,7 @@ Units are SI. Coordinates have shape `(n_q,)`, velocities and momenta `(n_v,)`, 
 from saltus import scenes
 from saltus._core import (
     AdjacentLinks,
+    At,
     BodyInertia,
     Box,
     BuilderJoint,
@@ -49,6 +50,7 @@ from saltus._core import (
     JointType,
     LagrangianPartials,
     Link,
+    LoopType,
     MeshUse,
     Mimic,
     Model,
@@ -71,6 +73,7 @@ from saltus._core import (
     Wrench,
     __version__,
     classify_impact,
+    close_loops,
     energies,
     gap,
     gap_table,
@@ -102,6 +105,7 @@ Shape = Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex
 
 __all__ = [
     "AdjacentLinks",
+    "At",
     "BatchTrajectory",
     "BodyInertia",
     "Box",
@@ -136,6 +140,7 @@ __all__ = [
     "JointType",
     "LagrangianPartials",
     "Link",
+    "LoopType",
     "MeshUse",
     "Mimic",
     "Model",
@@ -163,6 +168,7 @@ __all__ = [
     "Wrench",
     "__version__",
     "classify_impact",
+    "close_loops",
     "cmake_dir",
     "energies",
     "gap",

@@ -29,6 +29,9 @@ set(SALTUS_TEST_lagrangian
 set(SALTUS_TEST_force
   force/test_force_model.cpp
 )
+set(SALTUS_TEST_constraint
+  constraint/test_equality.cpp
+)
 set(SALTUS_TEST_collision
   collision/test_broad_phase.cpp
   collision/test_chord.cpp

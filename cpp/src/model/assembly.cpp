@@ -21,6 +21,7 @@ void Assembly::check() {
   m_.packed = pack(m_.tree, m_.mass, d_.solver);
   check_moments();
   check_masses();
+  add_loops();
   add_shapes();
   check_visuals();
 }

@@ -87,6 +87,10 @@ class Assembly {
   void add_limits();
   int joint_index(const std::string& name, const std::string& user) const;
 
+  // loops.cpp
+  void add_loops();
+  Equality::End end_of(const At& at, const std::string& loop) const;
+
   // filter.cpp
   void add_filter();  // exclusions of links and of groups
   std::vector<std::pair<int, int>> adjacent_links() const;

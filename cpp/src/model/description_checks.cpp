@@ -17,6 +17,12 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   for (std::size_t i = 1; i < d.links.size(); ++i) again.add_link(d.links[i]);
   for (const JointSpec& joint : d.joints) again.add_joint(joint);
   for (const ActuatorSpec& actuator : d.actuators) again.add_actuator(actuator);
+  for (const LoopSpec& loop : d.loops) {
+    again.add_loop(loop.name, loop.type, loop.a, loop.b, loop.distance);
+  }
+  for (const CouplingSpec& coupling : d.couplings) {
+    again.add_coupling(coupling.joint, coupling.of, coupling.polynomial);
+  }
   for (const Visual& visual : d.visuals) again.add_visual(visual);
   for (ShapeSpec shape : d.shapes) {
     check_shape(shape.shape, shape.link);

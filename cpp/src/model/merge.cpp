@@ -45,6 +45,10 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
     rename(actuator.name);
     for (auto& [joint, ratio] : actuator.joints) rename(joint);
   }
+  for (LoopSpec& loop : d.loops) {
+    for (std::string* name : {&loop.name, &loop.a.link, &loop.b.link}) rename(*name);
+  }
+  for (CouplingSpec& coupling : d.couplings) rename(coupling.joint), rename(coupling.of);
   for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
     for (auto& [first, second] : *pairs) rename(first), rename(second);
   }
@@ -69,7 +73,7 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
 }
 
 struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators;
+  std::set<std::string> links, joints, half_spaces, groups, actuators, loops;
 };
 
 Names names_of(const ModelDescription& d) {
@@ -81,6 +85,7 @@ Names names_of(const ModelDescription& d) {
   }
   for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
   for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
+  for (const LoopSpec& loop : d.loops) names.loops.insert(loop.name);
   return names;
 }
 
@@ -97,7 +102,8 @@ std::pair<std::string, std::string> clash(const Names& ours, const Names& others
       {"joint", find(ours.joints, others.joints)},
       {"half_space", find(ours.half_spaces, others.half_spaces)},
       {"group", find(ours.groups, others.groups)},
-      {"actuator", find(ours.actuators, others.actuators)}};
+      {"actuator", find(ours.actuators, others.actuators)},
+      {"loop", find(ours.loops, others.loops)}};
   for (const auto& each : found) {
     if (!each.second.empty()) return each;
   }
@@ -283,6 +289,8 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.links, d.links);
   append(other.joints, d.joints);
   append(other.actuators, d.actuators);
+  append(other.loops, d.loops);
+  append(other.couplings, d.couplings);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);

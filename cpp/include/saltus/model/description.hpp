@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/model/loop_spec.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/model/visual.hpp"
 
@@ -122,6 +123,8 @@ struct ModelDescription {
   std::vector<LinkSpec> links;  ///< the root first
   std::vector<JointSpec> joints;
   std::vector<ActuatorSpec> actuators;
+  std::vector<LoopSpec> loops;
+  std::vector<CouplingSpec> couplings;
   std::vector<ShapeSpec> shapes;
   std::vector<Visual> visuals;
   FilterSpec filter;

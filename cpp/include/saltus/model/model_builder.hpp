@@ -119,6 +119,16 @@ class SALTUS_EXPORT ModelBuilder {
   /// e at the stops that the joint has.
   ModelBuilder& set_limit_restitution(const std::string& joint, double restitution);
   ModelBuilder& add_joint_spring(const std::string& joint, double stiffness, double rest = 0);
+
+  /// Holds two links together beyond the tree; simulate from a configuration that closes it
+  /// (close_loops). `distance` [m] is of type distance.
+  ModelBuilder& add_loop(const std::string& name, LoopType type, const At& a, const At& b,
+                         double distance = 0);
+  /// The displacement of `joint` is a polynomial, by rising powers, of that of another. A joint
+  /// that mimics another is the same of degree 1, and has no coordinate.
+  ModelBuilder& add_coupling(const std::string& joint, const std::string& of,
+                             const std::vector<double>& polynomial);
+
   /// What of these acts, of one joint or of all there are now.
   ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
   ModelBuilder& set_effects(JointEffects effects);

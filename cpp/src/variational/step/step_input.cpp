@@ -64,6 +64,7 @@ void Stepper::Impl::add_dry_work() {
   VecX& after = arc.scratch.x;
   after = arc.rows.momentum;
   solve(scene.model.tree, scene.model.packed, node.M, after);
+  if (node.loops.some) node.loops.solver.hold(after);
   for (const int i : arc.rows.active) {
     const Row& row = arc.rows.row[i];
     if (!row.is_joint()) continue;

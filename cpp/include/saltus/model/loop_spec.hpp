@@ -1,0 +1,30 @@
+// What a description says of loops and couplings; constraint/equality.hpp says what they are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "saltus/constraint/equality.hpp"
+
+namespace saltus {
+
+/// A frame on a link: what acts at a point there is attached to its origin.
+struct At {
+  std::string link;
+  Pose X_LA = {};  ///< in the link's frame
+};
+
+struct LoopSpec {
+  std::string name;
+  LoopType type = LoopType::point;  ///< no coupling
+  At a, b;
+  double distance = 0;  ///< [m] of type distance
+};
+
+/// The displacement of `joint` is a polynomial of that of another; both are of one coordinate.
+struct CouplingSpec {
+  std::string joint, of;
+  std::vector<double> polynomial;  ///< by rising powers
+};
+
+}  // namespace saltus

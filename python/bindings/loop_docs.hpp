@@ -1,0 +1,108 @@
+// Docstrings of loops.
+#pragma once
+
+namespace saltus::bindings::docs {
+
+constexpr auto loop_type = R"(What a loop holds of its two ends, frames on two links.
+
+`point`: their origins are one. `weld`: their axes as well. `distance`: their origins are a fixed
+distance apart. `on_plane`: the origin of a is on the plane through the origin of b that b's z axis
+is normal to. `coupling`: of two joints, see `add_coupling`.
+)";
+
+constexpr auto at = R"(A frame on a link.
+
+Parameters
+----------
+link : str
+p : array_like, shape (3,)
+    [m] its origin in the link's frame.
+R : array_like, shape (3, 3), optional
+    Its axes there; those of the link where not given.
+)";
+
+constexpr auto add_loop =
+    R"(Holds two links together beyond the tree, as the last pin of a four-bar.
+
+The loop is exact: a step ends with it closed to rounding, impacts respect it, and its forces are
+in `Stepper.report.loops`. Loops that say the same twice share the load. No gap is watched
+between links that a `point` or `weld` holds together. A run starts from a configuration that
+closes all loops: `close_loops` finds one. (RATTLE, as Hairer, Lubich, Wanner, VII.1.)
+
+Parameters
+----------
+name : str
+type : LoopType or str
+    "point", "weld", "distance" or "on_plane".
+a, b : At
+    Its ends, on two links.
+distance : float
+    [m] of type "distance".
+
+Returns
+-------
+ModelBuilder
+
+Raises
+------
+ModelError
+    On a name that another loop has, ends on one link, and a distance that is none.
+)";
+
+constexpr auto add_coupling = R"(Makes the displacement of a joint a polynomial of another's.
+
+A joint that mimics another (`mimic`) is the same of degree 1, and costs nothing: it has no
+coordinate. The coupling is named "<joint> coupling" where loops are listed.
+
+Parameters
+----------
+joint, of : str
+    Both of one coordinate.
+polynomial : array_like
+    Coefficients by rising powers: (0, 1, 0.1) is x + 0.1 x^2.
+
+Returns
+-------
+ModelBuilder
+)";
+
+constexpr auto loop_gaps = R"(How far each loop is open.
+
+Parameters
+----------
+q : array_like, shape (n_q,), or mapping
+
+Returns
+-------
+dict of str to numpy.ndarray
+    By loop, [m]; of a weld three of the position and three of the orientation (twice the vector of
+    the quaternion: [rad] where small).
+)";
+
+constexpr auto close_loops = R"(Finds the state nearest to a configuration that closes all loops.
+
+Newton's method goes from q by the shortest steps in the metric of the mass matrix; velocities are
+the nearest, in the same metric, that keep the loops closed.
+
+Parameters
+----------
+model : Model
+q : array_like, shape (n_q,), or mapping, optional
+    Where to start: the closer, the likelier is the branch that you mean.
+v : array_like, shape (n_v,), or mapping, optional
+keep : list of str
+    Joints, or velocities, that stay exactly as they are in q and v.
+t : float
+    [s] of the state.
+
+Returns
+-------
+State
+
+Raises
+------
+ModelError
+    Where no such state is found: the loop that stays open, and by how much.
+)";
+
+}  // namespace saltus::bindings::docs
