@@ -8,8 +8,6 @@
 namespace saltus {
 namespace {
 
-using Contacts = std::map<std::pair<std::string, std::string>, ContactProperties>;
-
 bool is_half_space(const ShapeSpec& shape) {
   return std::holds_alternative<HalfSpace>(shape.shape);
 }
@@ -23,53 +21,8 @@ std::string material_of(const ModelDescription& d, const ShapeSpec& shape) {
   return found == d.materials.of_link.end() ? "" : found->second;
 }
 
-template <class Value>
-std::map<std::string, Value> prefixed(const std::map<std::string, Value>& names,
-                                      const std::string& prefix) {
-  std::map<std::string, Value> out;
-  for (const auto& [name, value] : names) out[prefix + name] = value;
-  return out;
-}
-
-/// The same description under other names.
-void add_prefix(const AddSpec& how, ModelDescription& d) {
-  const std::string& prefix = how.prefix;
-  const auto rename = [&](std::string& name) { name.insert(0, prefix); };
-  rename(d.root);
-  for (LinkSpec& link : d.links) rename(link.name);
-  for (JointSpec& joint : d.joints) {
-    for (std::string* name : {&joint.name, &joint.parent, &joint.child}) rename(*name);
-    if (joint.mimic) rename(joint.mimic->joint);
-  }
-  for (ActuatorSpec& actuator : d.actuators) {
-    rename(actuator.name);
-    for (auto& [joint, ratio] : actuator.joints) rename(joint);
-  }
-  for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
-    for (auto& [first, second] : *pairs) rename(first), rename(second);
-  }
-  d.filter.group_of = prefixed(d.filter.group_of, prefix);
-  for (auto& [link, group] : d.filter.group_of) rename(group);
-  for (ShapeSpec& shape : d.shapes) {
-    rename(shape.link);
-    if (!shape.name.empty()) rename(shape.name);
-  }
-  for (Visual& visual : d.visuals) rename(visual.link);
-  d.materials.of_link = prefixed(d.materials.of_link, prefix);
-  if (!how.own_materials) return;
-  for (ShapeSpec& shape : d.shapes) {
-    if (!shape.material.empty()) rename(shape.material);
-  }
-  for (auto& [link, material] : d.materials.of_link) rename(material);
-  Contacts contact;
-  for (const auto& [pair, properties] : d.materials.contact) {
-    contact[std::minmax(prefix + pair.first, prefix + pair.second)] = properties;
-  }
-  d.materials.contact = std::move(contact);
-}
-
 struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators;
+  std::set<std::string> links, joints, half_spaces, groups, actuators, states, sensors;
 };
 
 Names names_of(const ModelDescription& d) {
@@ -81,6 +34,8 @@ Names names_of(const ModelDescription& d) {
   }
   for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
   for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
+  for (const StateSpec& state : d.states) names.states.insert(state.name);
+  for (const SensorSpec& sensor : d.sensors) names.sensors.insert(sensor.name);
   return names;
 }
 
@@ -97,7 +52,9 @@ std::pair<std::string, std::string> clash(const Names& ours, const Names& others
       {"joint", find(ours.joints, others.joints)},
       {"half_space", find(ours.half_spaces, others.half_spaces)},
       {"group", find(ours.groups, others.groups)},
-      {"actuator", find(ours.actuators, others.actuators)}};
+      {"actuator", find(ours.actuators, others.actuators)},
+      {"state", find(ours.states, others.states)},
+      {"sensor", find(ours.sensors, others.sensors)}};
   for (const auto& each : found) {
     if (!each.second.empty()) return each;
   }
@@ -148,6 +105,9 @@ std::map<std::string, std::string> merge_floors(const Pose& X_WR, ModelDescripti
              shape.contact ? shape.contact : other.materials.standard,
              "half-space " + quoted(name_of(floor)), "they are one plane: give both the same");
       if (!floor.contact) floor.contact = shape.contact;
+      for (SensorSpec& sensor : other.sensors) {
+        if (!shape.name.empty() && sensor.other == shape.name) sensor.other = name_of(floor);
+      }
       const std::string mine = material_of(ours, floor), its = material_of(other, shape);
       if (mine.empty()) floor.material = its;
       if (!mine.empty() && !its.empty() && mine != its) renamed[its] = mine;
@@ -283,6 +243,8 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.links, d.links);
   append(other.joints, d.joints);
   append(other.actuators, d.actuators);
+  append(other.states, d.states);
+  append(other.sensors, d.sensors);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "saltus/model/model.hpp"
+#include "saltus/model/named_state.hpp"
+#include "saltus/model/sensor.hpp"
 #include "saltus/model/visual.hpp"
 
 namespace saltus {
@@ -126,6 +128,8 @@ struct ModelDescription {
   std::vector<Visual> visuals;
   FilterSpec filter;
   MaterialSpec materials;
+  std::vector<StateSpec> states;
+  std::vector<SensorSpec> sensors;
   std::vector<std::string> warnings;
 };
 
