@@ -84,8 +84,11 @@ set(SALTUS_SOURCES
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
+  cpp/src/model/named_states.cpp
   cpp/src/model/pairs.cpp
+  cpp/src/model/rename.cpp
   cpp/src/model/scene.cpp
+  cpp/src/model/sensors.cpp
   cpp/src/model/shape_checks.cpp
   cpp/src/model/solids.cpp
   cpp/src/model/topology.cpp
@@ -173,6 +176,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/shape_inertias.cpp
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
+  cpp/src/urdf/srdf_states.cpp
   cpp/src/urdf/tree_checks.cpp
   cpp/src/urdf/visuals.cpp
   cpp/src/urdf/warnings.cpp
@@ -200,7 +204,11 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_loops.cpp
   python/bindings/bind_motion.cpp
   python/bindings/bind_visuals.cpp
+  python/bindings/bind_named_states.cpp
+  python/bindings/bind_sensors.cpp
+  python/bindings/bind_descriptions.cpp
   python/bindings/pickle.cpp
+  python/bindings/plain.cpp
   # urdf
   python/bindings/bind_urdf.cpp
   # variational

@@ -141,6 +141,8 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("joint_names", [](const Model& m) { return names_of(m->joints); })
       .def_property_readonly("coordinate_names",
                              [](const Model& m) { return names_of(m->coordinates); })
+      .def_property_readonly("state_names", &state_names,
+                             "of states that `state` gives by name, see `ModelBuilder.add_state`")
       .def_property_readonly("velocity_names", [](const Model& m) { return m->velocity_names; })
       .def_property_readonly("pair_names", &pair_names,
                              "\"a ~ b\" of every pair, \"a[part] ~ b\" where shapes have several")
@@ -215,22 +217,10 @@ void bind_contact_properties(py::module_& m) {
       .def(pickle_fields<P, &P::restitution, &P::friction>());
 }
 
-/// A model goes to another process as what it is built of, and is built there: the same bits.
 void bind_copies(py::class_<Model>& c) {
-  c.def("__copy__", [](const Model& m) { return m; })
-      .def(
-          "__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"))
-      .def(
-          "_moving_parts", [](const Model& m) { return moving_parts(*m->description); },
-          "Links, joints and actuators as the model was built of them, to compare models by.")
-      .def(py::pickle(
-          [](const Model& m) {
-            return py::make_tuple(to_tuple(*m->description), !m->pairs.empty());
-          },
-          [](const py::tuple& t) {
-            const Model whole = ModelBuilder(to_description(t[0])).build();
-            return t[1].cast<bool>() ? whole : whole.without_collisions();
-          }));
+  c.def("__copy__", [](const Model& m) {
+     return m;
+   }).def("__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"));
 }
 
 }  // namespace
@@ -245,16 +235,21 @@ void bind_model(py::module_& m) {
   bind_tree_solution(m);
   bind_gaps(m);
   bind_visuals(m);
+  bind_sensors(m);
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);
   bind_copies(c);
+  bind_descriptions(c, m);
+  bind_model_sensors(c);
   bind_configurations(c);
   bind_model_forces(c);
   bind_model_loops(c, m);
   c.def(
        "state",
        [](const Model& model, const Coordinates& q, const Velocities& v, double t) {
-         return model.state(to_vector(q, model), to_vector(v, model), t);
+         const bool is_named = py::isinstance<py::str>(q.value) && v.value.is_none();
+         return model.state(to_vector(q, model),
+                            to_vector(is_named ? Velocities{q.value} : v, model), t);
        },
        docs::model_state, py::arg("q") = py::none(), py::arg("v") = py::none(), py::arg("t") = 0.0)
       .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))

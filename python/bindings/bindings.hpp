@@ -39,6 +39,11 @@ void bind_add_loops(py::class_<ModelBuilder>& c);                ///< called by 
 void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
+void bind_named_states(py::class_<ModelBuilder>& c);             ///< likewise
+void bind_add_sensor(py::class_<ModelBuilder>& c);               ///< likewise
+void bind_sensors(py::module_& m);                               ///< called by bind_model
+void bind_model_sensors(py::class_<Model>& c);                   ///< likewise
+void bind_descriptions(py::class_<Model>& c, py::module_& m);    ///< likewise
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
@@ -53,7 +58,7 @@ void bind_batch(py::module_& m);
 void explain_errors(const py::module_& m);
 
 /// What a user gives for q: names and values (others as in Model::neutral), where a joint's name
-/// stands for all of its numbers; an array (n_q); or None.
+/// stands for all of its numbers; the name of a state; an array (n_q); or None.
 struct Coordinates {
   static constexpr auto type_name = py::detail::const_name(
       "collections.abc.Mapping[str, object] | numpy.typing.ArrayLike | None");
@@ -71,6 +76,10 @@ struct Velocities {
 /// @throws ModelError on a name that the model has not, and on what are no numbers or too many.
 VecX to_vector(const Coordinates& x, const Model& model, const char* what = "q");
 VecX to_vector(const Velocities& x, const Model& model, const char* what = "v");
+
+/// The numbers of a value: one, a sequence, a Pose (x y z, x y z w), a Rotation.
+/// @throws ModelError on what are none; `entry` names the value.
+std::vector<double> numbers_in(const py::handle& x, const std::string& entry);
 
 /// What a user gives for e or mu: one number for all contacts, or one for each.
 struct PerContact {

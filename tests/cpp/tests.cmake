@@ -58,6 +58,7 @@ set(SALTUS_TEST_model
   model/test_materials.cpp
   model/test_merge.cpp
   model/test_model.cpp
+  model/test_named_states.cpp
   model/test_pairs.cpp
   model/test_scene.cpp
   model/test_solids.cpp

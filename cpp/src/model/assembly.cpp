@@ -34,6 +34,7 @@ Model Assembly::build() {
   m_.description = std::make_shared<const ModelDescription>(d_);
   add_pairs();
   add_limits();
+  warn_of_states();
   warn_of_unsaid_contacts();
   return Model(std::move(m_));
 }

@@ -36,6 +36,9 @@ bool same_plane(const Pose& X_WA, const Pose& X_WB);
 /// Where a link is that only fixed joints hold to the root; nothing where it may move.
 std::optional<Pose> fixed_pose(const ModelDescription& description, const std::string& link);
 
+/// The same description under other names.
+void add_prefix(const AddSpec& how, ModelDescription& description);
+
 class Assembly {
  public:
   explicit Assembly(const ModelDescription& description) : d_(description) {}
@@ -103,6 +106,9 @@ class Assembly {
   void warn_of_unsaid_contacts();  // of free roots that meet half-spaces
   std::vector<int> flying_links() const;
   bool is_unsaid(int i, int j) const;  // of two shapes
+
+  // named_states.cpp
+  void warn_of_states();  // of those outside of limits
 
   // visuals.cpp
   void check_visuals() const;  // their links

@@ -35,6 +35,8 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   }
   for (const auto& [link, material] : d.materials.of_link) again.set_material(link, material);
   if (d.materials.standard) again.set_default_contact(*d.materials.standard);
+  for (const StateSpec& state : d.states) again.add_state(state);
+  for (const SensorSpec& sensor : d.sensors) again.add_sensor(sensor);
   again.d_.filter = d.filter;
   again.d_.warnings = d.warnings;
   return std::move(again.d_);

@@ -8,8 +8,6 @@
 namespace saltus {
 namespace {
 
-using Contacts = std::map<std::pair<std::string, std::string>, ContactProperties>;
-
 bool is_half_space(const ShapeSpec& shape) {
   return std::holds_alternative<HalfSpace>(shape.shape);
 }
@@ -23,57 +21,9 @@ std::string material_of(const ModelDescription& d, const ShapeSpec& shape) {
   return found == d.materials.of_link.end() ? "" : found->second;
 }
 
-template <class Value>
-std::map<std::string, Value> prefixed(const std::map<std::string, Value>& names,
-                                      const std::string& prefix) {
-  std::map<std::string, Value> out;
-  for (const auto& [name, value] : names) out[prefix + name] = value;
-  return out;
-}
-
-/// The same description under other names.
-void add_prefix(const AddSpec& how, ModelDescription& d) {
-  const std::string& prefix = how.prefix;
-  const auto rename = [&](std::string& name) { name.insert(0, prefix); };
-  rename(d.root);
-  for (LinkSpec& link : d.links) rename(link.name);
-  for (JointSpec& joint : d.joints) {
-    for (std::string* name : {&joint.name, &joint.parent, &joint.child}) rename(*name);
-    if (joint.mimic) rename(joint.mimic->joint);
-  }
-  for (ActuatorSpec& actuator : d.actuators) {
-    rename(actuator.name);
-    for (auto& [joint, ratio] : actuator.joints) rename(joint);
-  }
-  for (LoopSpec& loop : d.loops) {
-    for (std::string* name : {&loop.name, &loop.a.link, &loop.b.link}) rename(*name);
-  }
-  for (CouplingSpec& coupling : d.couplings) rename(coupling.joint), rename(coupling.of);
-  for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
-    for (auto& [first, second] : *pairs) rename(first), rename(second);
-  }
-  d.filter.group_of = prefixed(d.filter.group_of, prefix);
-  for (auto& [link, group] : d.filter.group_of) rename(group);
-  for (ShapeSpec& shape : d.shapes) {
-    rename(shape.link);
-    if (!shape.name.empty()) rename(shape.name);
-  }
-  for (Visual& visual : d.visuals) rename(visual.link);
-  d.materials.of_link = prefixed(d.materials.of_link, prefix);
-  if (!how.own_materials) return;
-  for (ShapeSpec& shape : d.shapes) {
-    if (!shape.material.empty()) rename(shape.material);
-  }
-  for (auto& [link, material] : d.materials.of_link) rename(material);
-  Contacts contact;
-  for (const auto& [pair, properties] : d.materials.contact) {
-    contact[std::minmax(prefix + pair.first, prefix + pair.second)] = properties;
-  }
-  d.materials.contact = std::move(contact);
-}
-
 struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators, loops;
+  std::set<std::string> links, joints, half_spaces, groups, actuators, loops, states,
+      sensors;
 };
 
 Names names_of(const ModelDescription& d) {
@@ -86,6 +36,8 @@ Names names_of(const ModelDescription& d) {
   for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
   for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
   for (const LoopSpec& loop : d.loops) names.loops.insert(loop.name);
+  for (const StateSpec& state : d.states) names.states.insert(state.name);
+  for (const SensorSpec& sensor : d.sensors) names.sensors.insert(sensor.name);
   return names;
 }
 
@@ -103,7 +55,9 @@ std::pair<std::string, std::string> clash(const Names& ours, const Names& others
       {"half_space", find(ours.half_spaces, others.half_spaces)},
       {"group", find(ours.groups, others.groups)},
       {"actuator", find(ours.actuators, others.actuators)},
-      {"loop", find(ours.loops, others.loops)}};
+      {"loop", find(ours.loops, others.loops)},
+      {"state", find(ours.states, others.states)},
+      {"sensor", find(ours.sensors, others.sensors)}};
   for (const auto& each : found) {
     if (!each.second.empty()) return each;
   }
@@ -154,6 +108,9 @@ std::map<std::string, std::string> merge_floors(const Pose& X_WR, ModelDescripti
              shape.contact ? shape.contact : other.materials.standard,
              "half-space " + quoted(name_of(floor)), "they are one plane: give both the same");
       if (!floor.contact) floor.contact = shape.contact;
+      for (SensorSpec& sensor : other.sensors) {
+        if (!shape.name.empty() && sensor.other == shape.name) sensor.other = name_of(floor);
+      }
       const std::string mine = material_of(ours, floor), its = material_of(other, shape);
       if (mine.empty()) floor.material = its;
       if (!mine.empty() && !its.empty() && mine != its) renamed[its] = mine;
@@ -291,6 +248,8 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.actuators, d.actuators);
   append(other.loops, d.loops);
   append(other.couplings, d.couplings);
+  append(other.states, d.states);
+  append(other.sensors, d.sensors);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);

@@ -148,16 +148,16 @@ class Trajectory(Shown):
         core = _core.Trajectory.from_states(model, times, configurations, rows, momenta, h)
         return cls.from_core(core)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to an HDF5 file, with the model's URDF text in it.
-
-        A model that was built in code has no text; `load` then needs the model again.
+    def save(self, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
+        """Write everything to an HDF5 file, with the model in it.
 
         Parameters
         ----------
         path : str or os.PathLike
+        visuals : bool
+            False: without what links look like, which is most of a file with meshes.
         """
-        files.save(self, path)
+        files.save(self, path, visuals=visuals)
 
     def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
         """Draw the run: a cradle as velocities with sketches, others as coordinates and energies.
@@ -201,7 +201,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     ----------
     path : str or os.PathLike
     model : Model, optional
-        The model of the run, for files without it because it was built in code.
+        The model of the run, for older files without it, or to have its visuals.
 
     Returns
     -------
@@ -211,6 +211,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     Raises
     ------
     ModelError
-        On a file without a trajectory, and on a model that is not that of the run.
+        On a file without a trajectory, and on a model that is not that of the run: other masses,
+        joints, shapes, contacts or forces. Visuals, states and sensors may differ.
     """
     return files.read(Trajectory, path, model)

@@ -13,6 +13,8 @@
 
 #include "saltus/model/loop_spec.hpp"
 #include "saltus/model/model.hpp"
+#include "saltus/model/named_state.hpp"
+#include "saltus/model/sensor.hpp"
 #include "saltus/model/visual.hpp"
 
 namespace saltus {
@@ -129,6 +131,8 @@ struct ModelDescription {
   std::vector<Visual> visuals;
   FilterSpec filter;
   MaterialSpec materials;
+  std::vector<StateSpec> states;
+  std::vector<SensorSpec> sensors;
   std::vector<std::string> warnings;
 };
 

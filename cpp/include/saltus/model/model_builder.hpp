@@ -133,6 +133,11 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
   ModelBuilder& set_effects(JointEffects effects);
 
+  /// A state by name, see named_state.hpp. Joints are those there are now; joints that mimic others
+  /// have no numbers of their own.
+  ModelBuilder& add_state(const StateSpec& state);
+  ModelBuilder& add_sensor(const SensorSpec& sensor);
+
   ModelBuilder& add_warning(std::string text);
 
   /// What was said of a link or joint, or ModelError with the names there are.
