@@ -222,7 +222,7 @@ void bind_copies(py::class_<Model>& c) {
           "__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"))
       .def(
           "_moving_parts", [](const Model& m) { return moving_parts(*m->description); },
-          "Links, joints and actuators as the model was built of them, to compare models by.")
+          "What moves as the model was built of it, to compare models by.")
       .def(py::pickle(
           [](const Model& m) {
             return py::make_tuple(to_tuple(*m->description), !m->pairs.empty());

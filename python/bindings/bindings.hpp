@@ -35,6 +35,9 @@ void bind_joint_effects(py::module_& m);                         ///< called by 
 void bind_model_forces(py::class_<Model>& c);                    ///< likewise
 void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
+void bind_springs(py::class_<ModelBuilder>& c);                  ///< likewise
+void bind_points(py::module_& m);                                ///< likewise
+void bind_check_derivatives(py::module_& m);                     ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);

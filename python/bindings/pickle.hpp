@@ -38,7 +38,7 @@ void use_one_protocol(const py::module_& m);
 
 py::tuple to_tuple(const ModelDescription& description);
 
-/// Of that the links, joints and actuators: all that moves.
+/// Of that all that moves: links, joints, actuators, springs, and the names of functions.
 py::tuple moving_parts(const ModelDescription& description);
 
 ModelDescription to_description(const py::tuple& tuple);

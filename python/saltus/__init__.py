@@ -16,6 +16,7 @@ Units are SI. Coordinates have shape `(n_q,)`, velocities and momenta `(n_v,)`, 
 from saltus import scenes
 from saltus._core import (
     AdjacentLinks,
+    At,
     BodyInertia,
     Box,
     BuilderJoint,
@@ -28,6 +29,7 @@ from saltus._core import (
     Cylinder,
     Ellipsoid,
     Energies,
+    ForceMoment,
     Frames,
     FrictionOutcome,
     Gap,
@@ -70,6 +72,7 @@ from saltus._core import (
     Visual,
     Wrench,
     __version__,
+    check_derivatives,
     classify_impact,
     energies,
     gap,
@@ -102,6 +105,7 @@ Shape = Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex
 
 __all__ = [
     "AdjacentLinks",
+    "At",
     "BatchTrajectory",
     "BodyInertia",
     "Box",
@@ -115,6 +119,7 @@ __all__ = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "ForceMoment",
     "Frames",
     "FrictionOutcome",
     "Gap",
@@ -162,6 +167,7 @@ __all__ = [
     "Visual",
     "Wrench",
     "__version__",
+    "check_derivatives",
     "classify_impact",
     "cmake_dir",
     "energies",

@@ -84,6 +84,14 @@ class Assembly {
   // joint_forces.cpp
   void add_forces();  // armature and springs; damping, friction and actuators
   void add_actuator(const ActuatorSpec& spec);
+  void add_curve(const JointSpec& joint, int velocity, const Drive& drive);
+
+  // point_forces.cpp
+  void add_springs();        // and their dampers
+  void add_compensations();  // of links' weights
+  void add_functions();      // forces and potentials
+  BodyPoint body_point(const LinkPoint& point, const std::string& user,
+                       const std::string& culprit) const;
   void add_limits();
   int joint_index(const std::string& name, const std::string& user) const;
 

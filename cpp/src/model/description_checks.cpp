@@ -17,6 +17,12 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   for (std::size_t i = 1; i < d.links.size(); ++i) again.add_link(d.links[i]);
   for (const JointSpec& joint : d.joints) again.add_joint(joint);
   for (const ActuatorSpec& actuator : d.actuators) again.add_actuator(actuator);
+  for (const SpringSpec& spring : d.springs) again.add_spring(spring);
+  for (const ForceSpec& force : d.forces) again.add_force(force);
+  for (const PotentialFunction& potential : d.potentials) again.add_potential(potential);
+  for (const LinkSpec& link : d.links) {
+    if (link.compensation != 0) again.set_gravity_compensation(link.name, link.compensation);
+  }
   for (const Visual& visual : d.visuals) again.add_visual(visual);
   for (ShapeSpec shape : d.shapes) {
     check_shape(shape.shape, shape.link);

@@ -4,11 +4,10 @@
 #include <sstream>
 
 #include "model/assembly.hpp"
+#include "model/merge_names.hpp"
 
 namespace saltus {
 namespace {
-
-using Contacts = std::map<std::pair<std::string, std::string>, ContactProperties>;
 
 bool is_half_space(const ShapeSpec& shape) {
   return std::holds_alternative<HalfSpace>(shape.shape);
@@ -21,102 +20,6 @@ std::string material_of(const ModelDescription& d, const ShapeSpec& shape) {
   if (!shape.material.empty()) return shape.material;
   const auto found = d.materials.of_link.find(shape.link);
   return found == d.materials.of_link.end() ? "" : found->second;
-}
-
-template <class Value>
-std::map<std::string, Value> prefixed(const std::map<std::string, Value>& names,
-                                      const std::string& prefix) {
-  std::map<std::string, Value> out;
-  for (const auto& [name, value] : names) out[prefix + name] = value;
-  return out;
-}
-
-/// The same description under other names.
-void add_prefix(const AddSpec& how, ModelDescription& d) {
-  const std::string& prefix = how.prefix;
-  const auto rename = [&](std::string& name) { name.insert(0, prefix); };
-  rename(d.root);
-  for (LinkSpec& link : d.links) rename(link.name);
-  for (JointSpec& joint : d.joints) {
-    for (std::string* name : {&joint.name, &joint.parent, &joint.child}) rename(*name);
-    if (joint.mimic) rename(joint.mimic->joint);
-  }
-  for (ActuatorSpec& actuator : d.actuators) {
-    rename(actuator.name);
-    for (auto& [joint, ratio] : actuator.joints) rename(joint);
-  }
-  for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
-    for (auto& [first, second] : *pairs) rename(first), rename(second);
-  }
-  d.filter.group_of = prefixed(d.filter.group_of, prefix);
-  for (auto& [link, group] : d.filter.group_of) rename(group);
-  for (ShapeSpec& shape : d.shapes) {
-    rename(shape.link);
-    if (!shape.name.empty()) rename(shape.name);
-  }
-  for (Visual& visual : d.visuals) rename(visual.link);
-  d.materials.of_link = prefixed(d.materials.of_link, prefix);
-  if (!how.own_materials) return;
-  for (ShapeSpec& shape : d.shapes) {
-    if (!shape.material.empty()) rename(shape.material);
-  }
-  for (auto& [link, material] : d.materials.of_link) rename(material);
-  Contacts contact;
-  for (const auto& [pair, properties] : d.materials.contact) {
-    contact[std::minmax(prefix + pair.first, prefix + pair.second)] = properties;
-  }
-  d.materials.contact = std::move(contact);
-}
-
-struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators;
-};
-
-Names names_of(const ModelDescription& d) {
-  Names names;
-  for (const LinkSpec& link : d.links) names.links.insert(link.name);
-  for (const JointSpec& joint : d.joints) names.joints.insert(joint.name);
-  for (const ShapeSpec& shape : d.shapes) {
-    if (!shape.name.empty()) names.half_spaces.insert(shape.name);
-  }
-  for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
-  for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
-  return names;
-}
-
-/// The first name that both have, as kind and name; {"", ""} where there is none.
-std::pair<std::string, std::string> clash(const Names& ours, const Names& others,
-                                          const std::string& prefix) {
-  const auto find = [&](const std::set<std::string>& a, const std::set<std::string>& b) {
-    const auto both =
-        std::find_if(b.begin(), b.end(), [&](const auto& name) { return a.count(prefix + name); });
-    return both == b.end() ? "" : prefix + *both;
-  };
-  const std::vector<std::pair<std::string, std::string>> found = {
-      {"link", find(ours.links, others.links)},
-      {"joint", find(ours.joints, others.joints)},
-      {"half_space", find(ours.half_spaces, others.half_spaces)},
-      {"group", find(ours.groups, others.groups)},
-      {"actuator", find(ours.actuators, others.actuators)}};
-  for (const auto& each : found) {
-    if (!each.second.empty()) return each;
-  }
-  return {};
-}
-
-void check_names(const ModelDescription& ours, const ModelDescription& other,
-                 const std::string& given) {
-  const Names mine = names_of(ours), others = names_of(other);
-  const auto [kind, name] = clash(mine, others, "");
-  if (kind.empty()) return;
-  std::string prefix = other.name + "_";
-  for (int k = 2; !clash(mine, others, prefix).first.empty(); ++k) {
-    prefix = other.name + "_" + std::to_string(k) + "_";
-  }
-  throw ModelError("both " + quoted(ours.name) + " and what is added have a " +
-                       (kind == "half_space" ? "half-space" : kind) + " " + quoted(name) +
-                       "; a prefix makes names differ, for example " + quoted(prefix + given),
-                   kind, name);
 }
 
 /// What two descriptions say of one thing; @throws where they contradict each other.
@@ -199,6 +102,18 @@ void check_rules(const ModelDescription& ours, const ModelDescription& other) {
   }
 }
 
+/// Functions of q and v know those of their own model alone.
+void check_functions(const ModelDescription& d) {
+  const auto refuse = [&](const char* kind, const std::string& name) {
+    throw ModelError(std::string(kind) + " " + quoted(name) + " of " + quoted(d.name) +
+                         " is a function of that model's q and cannot be added to another; add it "
+                         "to the whole",
+                     kind, name);
+  };
+  if (!d.forces.empty()) refuse("force", d.forces.front().name);
+  if (!d.potentials.empty()) refuse("potential", d.potentials.front().name);
+}
+
 /// Where the other's root link is in the world; nothing where it moves.
 std::optional<Pose> check_parent(const ModelDescription& ours, const ModelDescription& other,
                                  const std::string& parent, const Pose& X) {
@@ -261,6 +176,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   ModelDescription& d = whole.d_;
   const std::optional<Pose> X_WR = check_parent(d, other, parent, how.X);
   check_rules(d, other);
+  for (const ModelDescription* each : {&d, &other}) check_functions(*each);
   const std::optional<ContactProperties> standard =
       agreed(d.materials.standard, other.materials.standard,
              "the default contact of " + quoted(d.name), "set_default_contact makes them equal");
@@ -283,6 +199,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.links, d.links);
   append(other.joints, d.joints);
   append(other.actuators, d.actuators);
+  append(other.springs, d.springs);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);

@@ -110,7 +110,7 @@ ArcWork::ArcWork(const Scene& scene) : rows(scene), scratch(scene.model, scene.o
 ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   const bool has_line = work.line.use != LaunchLine::Use::none;
   const VecX& p = work.rows.active.empty() ? node.p : work.rows.momentum;
-  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step()};
+  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), node.t};
 }
 
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {

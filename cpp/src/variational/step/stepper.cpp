@@ -27,7 +27,13 @@ constexpr int most_stepped = 4;
 
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
-  if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
+  if (law != ImpactLaw::compensated) return;
+  for (const PotentialFunction& each : model.mass.potentials.functions) {
+    throw ModelError("law compensated needs third derivatives, which potential \"" + each.name +
+                         "\" does not give; shadow_energy and discrete_energy do without",
+                     "potential", each.name);
+  }
+  if (model.tree.balls.empty()) return;
   for (const JointInfo& joint : model.joints) {
     if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
     throw ModelError("law compensated is not for floating and spherical joints, as \"" +
@@ -251,7 +257,8 @@ double Stepper::Impl::conserved_energy() {
     if (!solve(scene, 0, node, work)) fail(FlightOutcome::not_converged);
   }
   const Arc& arc = work.arc;
-  const ArcProblem problem{arc.q_start, node.p, arc.tau, nullptr, scene.whole_step()};
+  const ArcProblem problem{arc.q_start, node.p, arc.tau, nullptr, scene.whole_step(),
+                           node.t - arc.tau};
   return arc_energy(scene.model, problem, arc, work.scratch);
 }
 
