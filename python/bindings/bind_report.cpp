@@ -63,7 +63,8 @@ fallbacks : list of (float, float, str, float, str)
 contacts : list of ContactImpulse
     Impulses that held contacts closed over the step, each pair once, without those of impacts.
 work : dict of str to float
-    [J] done on the model in the step: by each actuator, and by "damping", "friction", "applied".
+    [J] done on the model in the step: by each actuator, by "damping" of joints and dampers, by dry
+    "friction", and by "applied" forces, those that are functions included.
 )";
 
 constexpr auto contact_doc =

@@ -10,6 +10,7 @@
 #include "saltus/error.hpp"
 #include "saltus/lagrangian/newton_euler.hpp"
 #include "saltus/lagrangian/partials.hpp"
+#include "saltus/lagrangian/shadow.hpp"
 
 namespace saltus {
 namespace {

@@ -21,7 +21,7 @@ struct DampedArc : BallArc {
     for (int k = 0; k < 2; ++k) {
       BodyPoint a = test::random_point(random, t.tree), b = test::random_point(random, t.tree);
       if (a.joint == b.joint) a.joint = b.joint < 0 ? t.tree.joints() - 1 : -1;
-      PlacedDamper damper{};
+      PlacedDamper damper;
       damper.a = pack_point(t.tree, packed, a);
       damper.b = pack_point(t.tree, packed, b);
       damper.damping = random.uniform(1, 5);

@@ -1,10 +1,10 @@
-// Springs between points, forces that never change, curves and functions in the passes (theory, F2).
+// Springs between points, constant forces, curves and functions in the passes (theory, F2).
 //
 //   point spring  f_a = -k (1 - l/d) r, f_b = -f_a    Q = (J_a - J_b)^T f_a
 //   V_qq = (J_a - J_b)^T K (J_a - J_b) - f.H          K = k (1 - l/d) 1 + k l/d n n^T
 //
-// f.H, H = dJ/dq, is made of generators G = J x f, as gravity's is; the rest are three columns a
-// spring. All of it is by velocity and added to slots at the end, so that plain loops do.
+// f.H, H = dJ/dq, is made of generators G = J x f, as gravity's is, that of constant forces too; the
+// rest are three columns a spring. All of it is by velocity and added to slots at the end, so that plain loops do.
 #include "lagrangian/packed/potentials.hpp"
 
 #include <cmath>
@@ -142,6 +142,9 @@ void add_potential_scale(const PackedTree& t, double tau, Packed& w) {
 
 void add_potential_generators(const PackedTree& t, Packed& w) {
   const PackedPotentials& all = *t.potentials;
+  for (const PackedForce& f : all.forces) {
+    add_pull_partials(f.at, position_from_O(w, f.at), f.force, w);
+  }
   Eigen::Index column = 0;
   for (std::size_t k = 0; k < all.springs.size(); ++k, column += 3) {
     const PackedSpring& s = all.springs[k];

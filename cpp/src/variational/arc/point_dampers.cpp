@@ -43,7 +43,7 @@ void add_turned_rates(const Packed& w, const PackedPoint& point, const Vec3& P, 
 std::vector<PlacedDamper> pack_dampers(const ModelData& model) {
   std::vector<PlacedDamper> out;
   for (const PointDamper& each : model.forces.dampers) {
-    PlacedDamper placed{};
+    PlacedDamper placed;
     placed.a = pack_point(model.tree, model.packed, {each.joint_a, each.p_a});
     placed.b = pack_point(model.tree, model.packed, {each.joint_b, each.p_b});
     placed.damping = each.damping;

@@ -10,11 +10,13 @@ namespace saltus {
 /// A damper in the middle of the arc that was evaluated last.
 struct PlacedDamper {
   PackedPoint a, b;
-  double damping;  ///< [N s/m]
-  Vec3 P_a, P_b;   ///< [m] its ends, from O of their trees
-  Vec3 n, r_rate;  ///< unit from b to a, or 0 where there is no line; [m/s] of a from b
-  double d;        ///< [m]
-  Vec3 force;      ///< [N] on a
+  double damping = 0;          ///< [N s/m]
+  Vec3 P_a = Vec3::Zero();     ///< [m] its ends, from O of their trees
+  Vec3 P_b = Vec3::Zero();     ///< likewise
+  Vec3 n = Vec3::Zero();       ///< unit from b to a, or 0 where there is no line
+  Vec3 r_rate = Vec3::Zero();  ///< [m/s] of a from b
+  double d = 0;                ///< [m]
+  Vec3 force = Vec3::Zero();   ///< [N] on a
 };
 
 /// Dampers of the model, not placed yet.
