@@ -8,6 +8,7 @@ set(SALTUS_SOURCES
   cpp/src/tree/kinematics.cpp
   cpp/src/tree/tree.cpp
   # lagrangian
+  cpp/src/lagrangian/curve.cpp
   cpp/src/lagrangian/mass_model.cpp
   cpp/src/lagrangian/packed/arc_rate.cpp
   cpp/src/lagrangian/packed/ball_arc.cpp
@@ -20,6 +21,9 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/pack.cpp
   cpp/src/lagrangian/packed/passes.cpp
   cpp/src/lagrangian/packed/place.cpp
+  cpp/src/lagrangian/packed/point.cpp
+  cpp/src/lagrangian/packed/potential_shadow.cpp
+  cpp/src/lagrangian/packed/potentials.cpp
   cpp/src/lagrangian/packed/products.cpp
   cpp/src/lagrangian/packed/rows.cpp
   cpp/src/lagrangian/packed/shadow.cpp
@@ -27,6 +31,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/turn.cpp
   cpp/src/lagrangian/partials.cpp
   # force
+  cpp/src/force/force_function.cpp
   cpp/src/force/force_model.cpp
   # constraint
   cpp/src/constraint/equality.cpp
@@ -69,6 +74,7 @@ set(SALTUS_SOURCES
   # model
   cpp/src/model/assembly.cpp
   cpp/src/model/changes.cpp
+  cpp/src/model/check_derivatives.cpp
   cpp/src/model/configuration.cpp
   cpp/src/model/dynamics.cpp
   cpp/src/model/description_checks.cpp
@@ -81,16 +87,18 @@ set(SALTUS_SOURCES
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
+  cpp/src/model/merge_names.cpp
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
   cpp/src/model/named_states.cpp
   cpp/src/model/pairs.cpp
-  cpp/src/model/rename.cpp
+  cpp/src/model/point_forces.cpp
   cpp/src/model/scene.cpp
   cpp/src/model/sensors.cpp
   cpp/src/model/shape_checks.cpp
   cpp/src/model/solids.cpp
+  cpp/src/model/spring_verbs.cpp
   cpp/src/model/topology.cpp
   cpp/src/model/unsaid.cpp
   cpp/src/model/visuals.cpp
@@ -126,6 +134,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc/finish.cpp
   cpp/src/variational/arc/launch_line.cpp
   cpp/src/variational/arc/memory.cpp
+  cpp/src/variational/arc/point_dampers.cpp
   cpp/src/variational/arc/row_blocks.cpp
   cpp/src/variational/arc/rows.cpp
   cpp/src/variational/arc/solve.cpp
@@ -203,10 +212,12 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_forces.cpp
   python/bindings/bind_loops.cpp
   python/bindings/bind_motion.cpp
+  python/bindings/bind_springs.cpp
   python/bindings/bind_visuals.cpp
   python/bindings/bind_named_states.cpp
   python/bindings/bind_sensors.cpp
   python/bindings/bind_descriptions.cpp
+  python/bindings/functions.cpp
   python/bindings/pickle.cpp
   python/bindings/plain.cpp
   # urdf

@@ -4,6 +4,19 @@
 #include "pickle.hpp"
 
 namespace saltus::bindings {
+namespace {
+
+/// @throws TypeError where the model has functions
+void check_no_functions(const ModelDescription& d) {
+  const auto refuse = [&](const std::string& what) {
+    throw py::type_error("cannot pickle model '" + d.name + "': its " + what +
+                         " is a function; build it where it is needed, or pickle a model without");
+  };
+  if (!d.forces.empty()) refuse("force '" + d.forces.front().name + "'");
+  if (!d.potentials.empty()) refuse("potential '" + d.potentials.front().name + "'");
+}
+
+}  // namespace
 
 void bind_descriptions(py::class_<Model>& c, py::module_& m) {
   m.attr("_DESCRIPTION_VERSION") = description_version;
@@ -21,6 +34,7 @@ void bind_descriptions(py::class_<Model>& c, py::module_& m) {
           py::arg("version") = description_version)
       .def(py::pickle(
           [](const Model& m) -> py::tuple {
+            check_no_functions(*m->description);
             return py::make_tuple(to_plain(*m->description), !m->pairs.empty());
           },
           [](const py::tuple& t) {

@@ -102,10 +102,6 @@ void bind_joint_forces(py::class_<B>& c) {
            py::arg("joint"), py::arg("friction"))
       .def("set_limit", &B::set_limit, self, docs::set_limit, py::arg("joint"), py::arg("lower"),
            py::arg("upper"), py::kw_only(), py::arg("restitution") = 0.0)
-      .def("add_joint_spring", &B::add_joint_spring, self,
-           "Adds V = stiffness (q - rest)^2 / 2, [N m/rad | N/m] and [rad | m]; returns the "
-           "builder.",
-           py::arg("joint"), py::kw_only(), py::arg("stiffness"), py::arg("rest") = 0.0)
       .def(
           "set_effects",
           [](B& builder, const Choice<JointEffects>& effects,

@@ -40,6 +40,11 @@ std::map<std::string, VecX> gaps_of(const Model& model, const Coordinates& q) {
 
 }  // namespace
 
+At to_at(const AtOrLink& where) {
+  const At* at = std::get_if<At>(&where);
+  return at != nullptr ? *at : At{std::get<std::string>(where)};
+}
+
 std::map<std::string, VecX> by_loop(const Model& model, const VecX& rows) {
   std::map<std::string, VecX> out;
   for (const Equality& each : model->equalities.all) {
@@ -78,9 +83,9 @@ void bind_loop_types(py::module_& m) {
 void bind_add_loops(py::class_<B>& c) {
   c.def(
        "add_loop",
-       [](B& builder, const std::string& name, const Choice<LoopType>& type, const At& a,
-          const At& b, double distance) -> B& {
-         return builder.add_loop(name, to_enum(type, "type"), a, b, distance);
+       [](B& builder, const std::string& name, const Choice<LoopType>& type, const AtOrLink& a,
+          const AtOrLink& b, double distance) -> B& {
+         return builder.add_loop(name, to_enum(type, "type"), to_at(a), to_at(b), distance);
        },
        self, docs::add_loop, py::arg("name"), py::arg("type"), py::kw_only(), py::arg("a"),
        py::arg("b"), py::arg("distance") = 0.0)

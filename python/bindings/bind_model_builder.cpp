@@ -147,6 +147,7 @@ void bind_parts(py::module_& m) {
 
 void bind_model_builder(py::module_& m) {
   bind_parts(m);
+  bind_points(m);
   m.def("solid_inertia", &solid_inertia, docs::solid_inertia, py::arg("mass"), py::arg("shape"));
   m.def("volume", &volume, docs::volume, py::arg("shape"));
 
@@ -158,6 +159,8 @@ void bind_model_builder(py::module_& m) {
   bind_scenes(c);
   bind_actuators(c);
   bind_joint_forces(c);
+  bind_springs(c);
+  bind_check_derivatives(m);
   bind_changes(c, m);
   bind_add_loops(c);
   bind_named_states(c);

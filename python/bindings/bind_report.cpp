@@ -63,7 +63,8 @@ fallbacks : list of (float, float, str, float, str)
 contacts : list of ContactImpulse
     Impulses that held contacts closed over the step, each pair once, without those of impacts.
 work : dict of str to float
-    [J] done on the model in the step: by each actuator, and by "damping", "friction", "applied".
+    [J] done on the model in the step: by each actuator, by "damping" of joints and dampers, by dry
+    "friction", and by "applied" forces, those that are functions included.
 loops : dict of str to numpy.ndarray
     [N s | N m s] what each loop pushed in the step, by its rows (`Model.loop_gaps`), without
     impacts; divided by the step `h` it is the mean force on its end a.

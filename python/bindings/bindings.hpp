@@ -38,6 +38,9 @@ void bind_model_loops(py::class_<Model>& c, py::module_& m);     ///< likewise
 void bind_add_loops(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
+void bind_springs(py::class_<ModelBuilder>& c);                  ///< likewise
+void bind_points(py::module_& m);                                ///< likewise
+void bind_check_derivatives(py::module_& m);                     ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
 void bind_named_states(py::class_<ModelBuilder>& c);             ///< likewise
 void bind_add_sensor(py::class_<ModelBuilder>& c);               ///< likewise
@@ -117,6 +120,10 @@ struct Choice {
       py::detail::make_caster<Enum>::name + py::detail::const_name(" | str");
   py::object value;
 };
+
+/// Where something is attached: a frame on a link, or a link for its own frame.
+using AtOrLink = std::variant<At, std::string>;
+At to_at(const AtOrLink& where);
 
 /// Rows of loops by name, for reports.
 std::map<std::string, VecX> by_loop(const Model& model, const VecX& rows);

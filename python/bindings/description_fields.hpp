@@ -25,7 +25,8 @@ template <>
 struct Fields<LinkSpec> {
   using T = LinkSpec;
   static constexpr std::tuple all{Field{"name", &T::name}, Field{"inertia", &T::inertia},
-                                  Field{"check", &T::check}};
+                                  Field{"check", &T::check},
+                                  Field{"compensation", &T::compensation}};
 };
 template <>
 struct Fields<Mimic> {
@@ -36,17 +37,28 @@ struct Fields<Mimic> {
 template <>
 struct Fields<JointSpec> {
   using T = JointSpec;
-  static constexpr std::tuple all{
-      Field{"name", &T::name},         Field{"type", &T::type},
-      Field{"parent", &T::parent},     Field{"child", &T::child},
-      Field{"X_PJ", &T::X_PJ},         Field{"axis", &T::axis},
-      Field{"pitch", &T::pitch},       Field{"mimic", &T::mimic},
-      Field{"lower", &T::lower},       Field{"upper", &T::upper},
-      Field{"velocity", &T::velocity}, Field{"effort", &T::effort},
-      Field{"damping", &T::damping},   Field{"friction", &T::friction},
-      Field{"armature", &T::armature}, Field{"stiffness", &T::stiffness},
-      Field{"rest", &T::rest},         Field{"limit_restitution", &T::limit_restitution},
-      Field{"effects", &T::effects}};
+  static constexpr std::tuple all{Field{"name", &T::name},
+                                  Field{"type", &T::type},
+                                  Field{"parent", &T::parent},
+                                  Field{"child", &T::child},
+                                  Field{"X_PJ", &T::X_PJ},
+                                  Field{"axis", &T::axis},
+                                  Field{"pitch", &T::pitch},
+                                  Field{"mimic", &T::mimic},
+                                  Field{"lower", &T::lower},
+                                  Field{"upper", &T::upper},
+                                  Field{"velocity", &T::velocity},
+                                  Field{"effort", &T::effort},
+                                  Field{"damping", &T::damping},
+                                  Field{"friction", &T::friction},
+                                  Field{"armature", &T::armature},
+                                  Field{"stiffness", &T::stiffness},
+                                  Field{"rest", &T::rest},
+                                  Field{"limit_restitution", &T::limit_restitution},
+                                  Field{"curve_x", &T::curve_x},
+                                  Field{"curve_f", &T::curve_f},
+                                  Field{"curve_slopes", &T::curve_slopes},
+                                  Field{"effects", &T::effects}};
 };
 template <>
 struct Fields<ActuatorSpec> {
@@ -60,6 +72,30 @@ template <>
 struct Fields<At> {
   static constexpr std::tuple all{Field{"link", &At::link}, Field{"X_LA", &At::X_LA}};
 };
+template <>
+struct Fields<SpringSpec> {
+  using T = SpringSpec;
+  static constexpr std::tuple all{Field{"name", &T::name},     Field{"a", &T::a},
+                                  Field{"b", &T::b},           Field{"stiffness", &T::stiffness},
+                                  Field{"length", &T::length}, Field{"damping", &T::damping}};
+};
+/// A function is told by its name alone, and cannot be read again.
+template <class T>
+struct PlainFunction {
+  static py::object to(const T& x) {
+    py::dict out;
+    out["name"] = x.name;
+    return out;
+  }
+  static T from(const Part& part) {
+    part.refuse("\"" + Plain<std::string>::from(part.at("name")) +
+                "\" was a function, which cannot be kept; build the model anew");
+  }
+};
+template <>
+struct Plain<ForceSpec> : PlainFunction<ForceSpec> {};
+template <>
+struct Plain<PotentialFunction> : PlainFunction<PotentialFunction> {};
 template <>
 struct Fields<LoopSpec> {
   using T = LoopSpec;
@@ -166,13 +202,23 @@ struct Fields<SensorSpec> {
 template <>
 struct Fields<ModelDescription> {
   using T = ModelDescription;
-  static constexpr std::tuple all{Field{"name", &T::name},        Field{"root", &T::root},
-                                  Field{"source", &T::source},    Field{"gravity", &T::gravity},
-                                  Field{"solver", &T::solver},    Field{"links", &T::links},
-                                  Field{"joints", &T::joints},    Field{"actuators", &T::actuators},
-                                  Field{"shapes", &T::shapes},    Field{"visuals", &T::visuals},
-                                  Field{"filter", &T::filter},    Field{"materials", &T::materials},
-                                  Field{"states", &T::states},    Field{"sensors", &T::sensors},
+  static constexpr std::tuple all{Field{"name", &T::name},
+                                  Field{"root", &T::root},
+                                  Field{"source", &T::source},
+                                  Field{"gravity", &T::gravity},
+                                  Field{"solver", &T::solver},
+                                  Field{"links", &T::links},
+                                  Field{"joints", &T::joints},
+                                  Field{"actuators", &T::actuators},
+                                  Field{"shapes", &T::shapes},
+                                  Field{"visuals", &T::visuals},
+                                  Field{"filter", &T::filter},
+                                  Field{"materials", &T::materials},
+                                  Field{"states", &T::states},
+                                  Field{"sensors", &T::sensors},
+                                  Field{"springs", &T::springs},
+                                  Field{"forces", &T::forces},
+                                  Field{"potentials", &T::potentials},
                                   Field{"loops", &T::loops},
                                   Field{"couplings", &T::couplings},
                                   Field{"warnings", &T::warnings}};

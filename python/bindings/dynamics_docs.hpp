@@ -149,8 +149,9 @@ ModelError
 
 constexpr auto model_accelerations = R"(Accelerations: forward dynamics.
 
-Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of joints' springs, c the forces of
-motion alone. Contacts, limits, damping, friction and motors do not act. O(n) for deep trees.
+Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of springs and potentials, c the forces
+of motion alone. Contacts, limits, damping, friction, motors and forces that are functions do not
+act. O(n) for deep trees.
 
 Parameters
 ----------
@@ -176,8 +177,8 @@ StepError
 
 constexpr auto model_inverse_dynamics = R"(Forces that make given accelerations: inverse dynamics.
 
-M(q) a + c(q, v) - gravity_forces(q) less those of joints' springs, by the recursion of Newton and
-Euler, O(n). At rest and without acceleration they are what holds the model up.
+M(q) a + c(q, v) - gravity_forces(q) less those of springs and potentials, by the recursion of
+Newton and Euler, O(n). At rest and without acceleration they are what holds the model up.
 
 Parameters
 ----------
@@ -201,8 +202,8 @@ ModelError
 
 constexpr auto model_gravity_forces = R"(What gravity does to the coordinates.
 
-Holding the model still takes the opposite; where joints have springs `inverse_dynamics(q)` has
-theirs, too.
+What is compensated of it (`set_gravity_compensation`) is left out. Holding the model still takes
+the opposite; where there are springs or potentials `inverse_dynamics(q)` has theirs, too.
 
 Parameters
 ----------

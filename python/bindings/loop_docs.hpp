@@ -10,7 +10,7 @@ distance apart. `on_plane`: the origin of a is on the plane through the origin o
 is normal to. `coupling`: of two joints, see `add_coupling`.
 )";
 
-constexpr auto at = R"(A frame on a link.
+constexpr auto at = R"(A frame on a link: where a spring or a loop is attached.
 
 Parameters
 ----------
@@ -34,8 +34,8 @@ Parameters
 name : str
 type : LoopType or str
     "point", "weld", "distance" or "on_plane".
-a, b : At
-    Its ends, on two links.
+a, b : At or str
+    Its ends, frames on two links, or links for their own frames.
 distance : float
     [m] of type "distance".
 

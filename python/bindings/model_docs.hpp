@@ -170,6 +170,7 @@ StepError
 
 constexpr auto model_lagrangian = R"(L = T - V and all its first and second partials.
 
+V is that of gravity, less what is compensated, of springs, and of potentials that are functions.
 Partials by q are along velocities, of shape (n_v,). Of a ball they are along turns exp(eta) R about
 its parent's axes, with the angular velocity in these axes held: `L_q` is no force then (the torque
 is L_q + w x L_v), and `L_qq` is not symmetric within a ball.

@@ -18,12 +18,14 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_balls.cpp
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
+  lagrangian/test_curve.cpp
   lagrangian/test_newton_euler.cpp
   lagrangian/test_no_allocation.cpp
   lagrangian/test_own_terms.cpp
   lagrangian/test_packed.cpp
   lagrangian/test_packed_matrix.cpp
   lagrangian/test_partials.cpp
+  lagrangian/test_potentials.cpp
   lagrangian/test_shadow.cpp
 )
 set(SALTUS_TEST_force
@@ -92,10 +94,12 @@ set(SALTUS_TEST_variational
   variational/test_laws.cpp
   variational/test_impact_outcomes.cpp
   variational/test_no_allocation.cpp
+  variational/test_point_dampers.cpp
   variational/test_resolve_impact.cpp
   variational/test_resting.cpp
   variational/test_resting_solids.cpp
   variational/test_restitution.cpp
+  variational/test_springs.cpp
   variational/test_stepper.cpp
   variational/test_sustained.cpp
   variational/test_symmetric.cpp

@@ -146,7 +146,7 @@ def test_loops_that_cannot_be_closed_are_named() -> None:
 URDF = """<robot name="four-bar"><link name="world"/>
 {links}
 <saltus>
-  <loop name="pin" type="point" a="rocker" a_xyz="0.8 0 0" b="world" b_xyz="1 0 0"/>
+  <loop name="pin" type="point" link1="rocker" xyz1="0.8 0 0" link2="world" xyz2="1 0 0"/>
 </saltus></robot>"""
 
 
@@ -169,7 +169,7 @@ def test_loops_are_read_from_a_file(tmp_path) -> None:
     with pytest.raises(ModelError, match='has type="pin"; known are point, weld'):
         saltus.load_urdf(text.replace('type="point"', 'type="pin"'))
     with pytest.raises(ModelError, match='names link "rockr", which does not exist'):
-        saltus.load_urdf(text.replace('a="rocker"', 'a="rockr"'))
+        saltus.load_urdf(text.replace('link1="rocker"', 'link1="rockr"'))
     coupled = text.replace(
         "<saltus>", '<saltus><coupling joint="rocker" of="crank" polynomial="0 x"/>'
     )

@@ -12,7 +12,7 @@ namespace {
 struct RowWriter {
   const Tree& tree;
   const Kinematics& kin;
-  Eigen::Ref<VecX, 0, Eigen::InnerStride<>> row;  ///< (n_v)
+  Eigen::Ref<VecX> row;  ///< (n_v)
 
   /// sign d.(velocity of the point P_W of the body).
   void add_point(int joint, const Vec3& P_W, const Vec3& d, double sign) {
@@ -33,7 +33,7 @@ struct RowWriter {
 };
 
 /// Sum of |gradient| |q|: how far the rounding of coordinates moves h. Angles of many turns count.
-double size_by_coordinates(const Tree& tree, const Eigen::Ref<const VecX, 0, Eigen::InnerStride<>>& row, const VecRef& q) {
+double size_by_coordinates(const Tree& tree, const Eigen::Ref<const VecX>& row, const VecRef& q) {
   double sum = 0;
   for (int c = 0; c < tree.n_v; ++c) {
     const int at = tree.coordinate[c];

@@ -84,12 +84,19 @@ int ForceModel::n_coupled() const {
                                         [](const Actuator& a) { return !a.is_single(); }));
 }
 
+int ForceModel::n_columns() const {
+  std::size_t columns = 3 * dampers.size();
+  for (const FunctionForce& each : functions) columns += each.velocities.size();
+  return static_cast<int>(columns);
+}
+
 ForceValues::ForceValues(const ForceModel& forces, int n_v) {
   const int columns = forces.n_coupled();
   for (VecX* each : {&Q, &size, &Q_q, &Q_v, &damping, &single}) each->setZero(n_v);
   for (VecX* each : {&effort, &rate}) each->setZero(forces.n_u());
   coupled.setZero(n_v, columns);
   slope.setZero(2 * columns);
+  answers.resize(forces.functions.size());
   int column = 0;
   for (int k = 0; k < forces.n_u(); ++k) {
     const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
@@ -128,6 +135,18 @@ void set_forces(const ForceModel& forces, const VecRef& q, const VecRef& v, cons
   if (input.qfrc.size() > 0) {
     out.Q += input.qfrc;
     out.size += input.qfrc.cwiseAbs();
+  }
+}
+
+void add_functions(const ForceModel& forces, const ForceMoment& now, ForceValues& out) {
+  for (std::size_t k = 0; k < forces.functions.size(); ++k) {
+    const FunctionForce& force = forces.functions[k];
+    ask(force, now, out.answers[k]);
+    for (std::size_t i = 0; i < force.velocities.size(); ++i) {
+      const double Q = out.answers[k].Q[static_cast<Eigen::Index>(i)];
+      out.Q[force.velocities[i]] += Q;
+      out.size[force.velocities[i]] += std::abs(Q);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include "saltus/lagrangian/partials.hpp"
 
+#include "lagrangian/packed/potentials.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
 
 namespace saltus {
@@ -40,6 +41,19 @@ void add_own_pairs(const PackedTree& t, MatX& L_vv, MatX* L_qq) {
   }
 }
 
+/// What forces that join several coordinates have in L_qq.
+void add_coupled_pairs(const Packed& w, MatX& L_qq) {
+  if (w.coupled.cols() > 0) L_qq += w.coupled * w.coupled_q.transpose();
+}
+
+/// Of curves.
+void add_curve_pairs(const PackedTree& t, const Packed& w, MatX& L_qq) {
+  if (t.potentials == nullptr) return;
+  for (const CurveSpring& c : t.potentials->curves) {
+    L_qq(c.velocity, c.velocity) -= c.multiplier * c.multiplier * packed::value_of(c, t, w).slope;
+  }
+}
+
 /// Writes L_v and L_q by joint, and all that second_pass needs.
 void set_first_partials(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v,
                         Packed& w) {
@@ -67,6 +81,8 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   gather(tree, t, w.first, 1, L.L_q);
   add_pairs(tree, t, rows, L);
   add_own_pairs(t, L.L_vv, &L.L_qq);
+  add_coupled_pairs(w, L.L_qq);
+  add_curve_pairs(t, w, L.L_qq);
   L.value = 0.5 * v.dot(L.L_v) - V;
   return L;
 }

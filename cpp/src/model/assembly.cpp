@@ -18,7 +18,12 @@ void Assembly::check() {
   add_masses();
   add_forces();
   m_.mass.gravity = d_.gravity;
+  add_springs();
+  add_compensations();
+  add_functions();
   m_.packed = pack(m_.tree, m_.mass, d_.solver);
+  const int joining = m_.packed.columns + m_.forces.n_columns();
+  m_.packed.dense_arcs = joining > 0 && 3 * (joining + m_.forces.n_coupled()) > m_.tree.n_v;
   check_moments();
   check_masses();
   add_loops();

@@ -36,9 +36,6 @@ bool same_plane(const Pose& X_WA, const Pose& X_WB);
 /// Where a link is that only fixed joints hold to the root; nothing where it may move.
 std::optional<Pose> fixed_pose(const ModelDescription& description, const std::string& link);
 
-/// The same description under other names.
-void add_prefix(const AddSpec& how, ModelDescription& description);
-
 class Assembly {
  public:
   explicit Assembly(const ModelDescription& description) : d_(description) {}
@@ -87,6 +84,13 @@ class Assembly {
   // joint_forces.cpp
   void add_forces();  // armature and springs; damping, friction and actuators
   void add_actuator(const ActuatorSpec& spec);
+  void add_curve(const JointSpec& joint, int velocity, const Drive& drive);
+
+  // point_forces.cpp
+  void add_springs();        // and their dampers
+  void add_compensations();  // of links' weights
+  void add_functions();      // forces and potentials
+  BodyPoint body_point(const At& point, const std::string& user, const std::string& culprit) const;
   void add_limits();
   int joint_index(const std::string& name, const std::string& user) const;
 

@@ -23,6 +23,12 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   for (const CouplingSpec& coupling : d.couplings) {
     again.add_coupling(coupling.joint, coupling.of, coupling.polynomial);
   }
+  for (const SpringSpec& spring : d.springs) again.add_spring(spring);
+  for (const ForceSpec& force : d.forces) again.add_force(force);
+  for (const PotentialFunction& potential : d.potentials) again.add_potential(potential);
+  for (const LinkSpec& link : d.links) {
+    if (link.compensation != 0) again.set_gravity_compensation(link.name, link.compensation);
+  }
   for (const Visual& visual : d.visuals) again.add_visual(visual);
   for (ShapeSpec shape : d.shapes) {
     check_shape(shape.shape, shape.link);

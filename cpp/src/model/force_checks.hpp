@@ -9,6 +9,12 @@ namespace saltus {
 /// finite, a restitution outside of 0 .. 1, and what a joint of this type cannot have.
 void check_forces(const JointSpec& joint);
 
+/// @throws ModelError where the curve of its spring is none.
+void check_curve(const JointSpec& joint);
+
+/// @throws ModelError on negative numbers, or ones that are not finite.
+void check_spring(const SpringSpec& spring);
+
 /// @throws ModelError on no name, no joint, numbers that are not finite, effort or limits that
 /// leave nothing.
 void check_actuator(const ActuatorSpec& actuator);

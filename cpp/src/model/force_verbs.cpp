@@ -35,6 +35,7 @@ void check_forces(const JointSpec& joint) {
     check_not_negative(joint, joint.stiffness, "stiffness");
     if (!std::isfinite(joint.rest))
       fail("joint", joint.name, "has a spring's rest that is not finite");
+    check_curve(joint);
   }
   if (has(joint.effects, JointEffects::friction)) {
     check_not_negative(joint, joint.friction, "friction");
@@ -48,7 +49,8 @@ void check_forces(const JointSpec& joint) {
     fail("joint", joint.name,
          "has dry friction, which only joints of one coordinate and planar ones can have");
   }
-  if ((joint.armature > 0 || joint.stiffness > 0) && !Assembly::has_one_coordinate(joint.type)) {
+  const bool has_spring = joint.stiffness > 0 || !joint.curve_x.empty();
+  if ((joint.armature > 0 || has_spring) && !Assembly::has_one_coordinate(joint.type)) {
     fail("joint", joint.name,
          "has an armature or a spring, which only joints of one coordinate can");
   }
@@ -192,6 +194,8 @@ ModelBuilder& ModelBuilder::add_joint_spring(const std::string& name, double sti
   change(joint(name), [&](JointSpec& j) {
     j.stiffness = stiffness;
     j.rest = rest;
+    j.curve_x = j.curve_f = {};
+    j.curve_slopes.reset();
   });
   return *this;
 }

@@ -49,6 +49,7 @@ void Assembly::add_forces() {
       if (has(joint.effects, JointEffects::friction)) {
         add(std::abs(m) * joint.friction, c, n, m_.forces.friction);
       }
+      if (is_damped && !joint.curve_x.empty() && m != 0) add_curve(joint, c, drive_[spec]);
       if (!is_damped || joint.stiffness == 0 || m == 0) continue;
       add(m * m * joint.stiffness, c, n, m_.mass.stiffness);
       // for now the moment that all springs there have about 0
@@ -59,6 +60,12 @@ void Assembly::add_forces() {
     if (m_.mass.rest[c] != 0) m_.mass.rest[c] /= m_.mass.stiffness[c];
   }
   for (const ActuatorSpec& spec : d_.actuators) add_actuator(spec);
+}
+
+void Assembly::add_curve(const JointSpec& joint, int velocity, const Drive& drive) {
+  m_.mass.potentials.curves.push_back(
+      {velocity, drive.multiplier, drive.offset,
+       make_curve(joint.curve_x, joint.curve_f, joint.curve_slopes)});
 }
 
 void Assembly::add_actuator(const ActuatorSpec& spec) {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/assembly.hpp"
+#include "model/merge_names.hpp"
 
 namespace saltus {
 namespace {
@@ -19,64 +20,6 @@ std::string material_of(const ModelDescription& d, const ShapeSpec& shape) {
   if (!shape.material.empty()) return shape.material;
   const auto found = d.materials.of_link.find(shape.link);
   return found == d.materials.of_link.end() ? "" : found->second;
-}
-
-struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators, loops, states,
-      sensors;
-};
-
-Names names_of(const ModelDescription& d) {
-  Names names;
-  for (const LinkSpec& link : d.links) names.links.insert(link.name);
-  for (const JointSpec& joint : d.joints) names.joints.insert(joint.name);
-  for (const ShapeSpec& shape : d.shapes) {
-    if (!shape.name.empty()) names.half_spaces.insert(shape.name);
-  }
-  for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
-  for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
-  for (const LoopSpec& loop : d.loops) names.loops.insert(loop.name);
-  for (const StateSpec& state : d.states) names.states.insert(state.name);
-  for (const SensorSpec& sensor : d.sensors) names.sensors.insert(sensor.name);
-  return names;
-}
-
-/// The first name that both have, as kind and name; {"", ""} where there is none.
-std::pair<std::string, std::string> clash(const Names& ours, const Names& others,
-                                          const std::string& prefix) {
-  const auto find = [&](const std::set<std::string>& a, const std::set<std::string>& b) {
-    const auto both =
-        std::find_if(b.begin(), b.end(), [&](const auto& name) { return a.count(prefix + name); });
-    return both == b.end() ? "" : prefix + *both;
-  };
-  const std::vector<std::pair<std::string, std::string>> found = {
-      {"link", find(ours.links, others.links)},
-      {"joint", find(ours.joints, others.joints)},
-      {"half_space", find(ours.half_spaces, others.half_spaces)},
-      {"group", find(ours.groups, others.groups)},
-      {"actuator", find(ours.actuators, others.actuators)},
-      {"loop", find(ours.loops, others.loops)},
-      {"state", find(ours.states, others.states)},
-      {"sensor", find(ours.sensors, others.sensors)}};
-  for (const auto& each : found) {
-    if (!each.second.empty()) return each;
-  }
-  return {};
-}
-
-void check_names(const ModelDescription& ours, const ModelDescription& other,
-                 const std::string& given) {
-  const Names mine = names_of(ours), others = names_of(other);
-  const auto [kind, name] = clash(mine, others, "");
-  if (kind.empty()) return;
-  std::string prefix = other.name + "_";
-  for (int k = 2; !clash(mine, others, prefix).first.empty(); ++k) {
-    prefix = other.name + "_" + std::to_string(k) + "_";
-  }
-  throw ModelError("both " + quoted(ours.name) + " and what is added have a " +
-                       (kind == "half_space" ? "half-space" : kind) + " " + quoted(name) +
-                       "; a prefix makes names differ, for example " + quoted(prefix + given),
-                   kind, name);
 }
 
 /// What two descriptions say of one thing; @throws where they contradict each other.
@@ -162,6 +105,18 @@ void check_rules(const ModelDescription& ours, const ModelDescription& other) {
   }
 }
 
+/// Functions of q and v know those of their own model alone.
+void check_functions(const ModelDescription& d) {
+  const auto refuse = [&](const char* kind, const std::string& name) {
+    throw ModelError(std::string(kind) + " " + quoted(name) + " of " + quoted(d.name) +
+                         " is a function of that model's q and cannot be added to another; add it "
+                         "to the whole",
+                     kind, name);
+  };
+  if (!d.forces.empty()) refuse("force", d.forces.front().name);
+  if (!d.potentials.empty()) refuse("potential", d.potentials.front().name);
+}
+
 /// Where the other's root link is in the world; nothing where it moves.
 std::optional<Pose> check_parent(const ModelDescription& ours, const ModelDescription& other,
                                  const std::string& parent, const Pose& X) {
@@ -224,6 +179,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   ModelDescription& d = whole.d_;
   const std::optional<Pose> X_WR = check_parent(d, other, parent, how.X);
   check_rules(d, other);
+  for (const ModelDescription* each : {&d, &other}) check_functions(*each);
   const std::optional<ContactProperties> standard =
       agreed(d.materials.standard, other.materials.standard,
              "the default contact of " + quoted(d.name), "set_default_contact makes them equal");
@@ -250,6 +206,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.couplings, d.couplings);
   append(other.states, d.states);
   append(other.sensors, d.sensors);
+  append(other.springs, d.springs);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);
   append(other.warnings, d.warnings);

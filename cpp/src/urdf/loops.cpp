@@ -20,18 +20,11 @@ LoopType type_of(const Document& document, const XMLElement& e, const Owner& own
   document.fail(e, owner, "has type=" + in_quotes(given) + "; known are " + list_names(known));
 }
 
-At end_of(const Document& document, const XMLElement& e, const Owner& owner,
-          const std::string& end) {
-  const std::string link = attribute(e, end.c_str());
-  if (document.find("link", link) == nullptr) {
-    document.fail(e, owner,
-                  "names link " + in_quotes(link) + ", which does not exist; links are " +
-                      list_names(document.names("link")));
-  }
-  const Vec3 rpy = vector(e, (end + "_rpy").c_str(), Vec3::Zero());
-  return {
-      link,
-      {rotation_from_rpy(rpy[0], rpy[1], rpy[2]), vector(e, (end + "_xyz").c_str(), Vec3::Zero())}};
+At checked_end(const Document& document, const XMLElement& e, const Owner& owner, const At& end) {
+  if (document.find("link", end.link) != nullptr) return end;
+  document.fail(e, owner,
+                "names link " + in_quotes(end.link) + ", which does not exist; links are " +
+                    list_names(document.names("link")));
 }
 
 std::vector<double> polynomial_of(const Document& document, const XMLElement& e,
@@ -51,8 +44,10 @@ bool add_loop_element(const Document& document, const XMLElement& e, ModelBuilde
   const Owner owner{kind, attribute(e, kind == "loop" ? "name" : "joint")};
   try {
     if (kind == "loop") {
-      builder.add_loop(owner.name, type_of(document, e, owner), end_of(document, e, owner, "a"),
-                       end_of(document, e, owner, "b"), number(e, "distance", 0));
+      const auto end = [&](const At& at) { return checked_end(document, e, owner, at); };
+      builder.add_loop(owner.name, type_of(document, e, owner),
+                       end(end_on(e, "link1", "xyz1", "rpy1")),
+                       end(end_on(e, "link2", "xyz2", "rpy2")), number(e, "distance", 0));
     } else {
       builder.add_coupling(owner.name, attribute(e, "of"), polynomial_of(document, e, owner));
     }

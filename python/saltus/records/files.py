@@ -201,7 +201,8 @@ def _model(
     if GROUP in file:
         description = read_description(file)
         if given is None:
-            return read_model(file, description)
+            has_functions = description.get("forces") or description.get("potentials")
+            return None if has_functions else read_model(file, description)
         found = difference(description, given._description())
         if found:
             raise ModelError(f"the model is not that of the run in {file.path}: {found}")

@@ -80,8 +80,8 @@ class Trajectory(Shown):
         What actuators (`control_names`) were told in the steps from each row on; in the last row
         as in the step before it.
     work : dict of str to numpy.ndarray, shape (rows,)
-        [J] done on the model until each row: by each actuator, by "damping", by dry "friction",
-        and by the "applied" forces.
+        [J] done on the model until each row: by each actuator, by "damping" of joints and
+        dampers, by dry "friction", and by "applied" forces, those that are functions included.
     energy_error : float
         Greatest |H(t) - H(0) - work(t)| over the greatest kinetic energy of the run. Impacts with
         restitution below 1 and friction between bodies count as error.

@@ -71,7 +71,8 @@ TEST(OwnTerms, NewtonsMatrixHoldsThemAndSlopesOfForces) {
         to[lanes] = Q_v[c];
       }
       e.w.coupled = G;
-      e.w.coupled_slope = slope;
+      e.w.coupled_q = G * VecX(slope(Eigen::seqN(0, 2, 2))).asDiagonal();
+      e.w.coupled_v = G * VecX(slope(Eigen::seqN(1, 2, 2))).asDiagonal();
       PackedMatrix J(t.own.tree, e.packed);
       for (const double tau : {0.01, 0.3}) {
         MatX dense = L.L_vv + tau / 2 * (L.L_vq - L.L_vq.transpose()) - tau * tau / 4 * L.L_qq;

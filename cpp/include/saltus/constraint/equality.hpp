@@ -44,13 +44,16 @@ struct EqualityModel {
   int rows = 0;
 };
 
+/// By columns, each a vector in the space of velocities.
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+
 /// h and its gradients at one configuration.
 struct EqualityValues {
   EqualityValues() = default;
-  EqualityValues(int n_v, int rows);
+  SALTUS_EXPORT EqualityValues(int n_v, int rows);
   VecX h;     ///< (m) [m | rad]
   VecX size;  ///< (m) of the terms that h is a difference of, for rounding
-  MatX A;     ///< (n_v, m) column k is the gradient of h_k
+  Columns A;  ///< (n_v, m) column k is the gradient of h_k
 };
 
 /// Joints whose poses set_equalities reads.

@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "saltus/force/force_function.hpp"
+#include "saltus/force/point_damper.hpp"
 #include "saltus/tree/tree.hpp"
 
 namespace saltus {
@@ -48,12 +50,18 @@ struct ForceModel {
   VecX friction;  ///< (n_v) [N m | N] dry, 0 of balls
   VecX effort;    ///< (n_v) [N m | N] of all actuators of one coordinate; infinite where no limit
   std::vector<Actuator> actuators;
+  std::vector<PointDamper> dampers;
+  std::vector<FunctionForce> functions;
 
   int n_u() const { return static_cast<int>(actuators.size()); }
   /// Actuators over several coordinates.
   int n_coupled() const;
+  /// Columns of Packed::coupled that dampers and functions take.
+  int n_columns() const;
   /// True where steps evaluate forces even if nobody applies any.
-  bool acts() const { return damping.size() > 0 || !actuators.empty(); }
+  bool acts() const {
+    return damping.size() > 0 || !actuators.empty() || !dampers.empty() || !functions.empty();
+  }
 };
 
 /// A force on a body and a torque, in the world's axes or in the body's.
@@ -92,14 +100,20 @@ struct ForceValues {
   VecX slope;     ///< (2 r) of these by l, by l'
   VecX effort;    ///< (n_u) f of each actuator, after all limits
   VecX rate;      ///< (n_u) l' of each
-  VecX damping;   ///< (n_v) Q of damping alone
+  VecX damping;   ///< (n_v) Q of damping alone, dampers included
   VecX single;    ///< (n_v) scratch: of single actuators before the joint's limit
   std::vector<SingleActuator> singles;  ///< as the model has them; written by the constructor
   std::vector<int> geared;              ///< the other actuators; likewise
+  std::vector<ForceAnswer> answers;     ///< of the functions
 };
 
-/// Writes all of `out` but wrenches, whose place is that of bodies.
+/// Writes all of `out` but what is at points of bodies: wrenches and dampers. And but functions.
 SALTUS_EXPORT void set_forces(const ForceModel& forces, const VecRef& q, const VecRef& v,
                               const ForceInput& input, ForceValues& out);
+
+/// Asks all functions and adds what they answer.
+/// @throws ModelError as `ask`, and what they throw
+SALTUS_EXPORT void add_functions(const ForceModel& forces, const ForceMoment& now,
+                                 ForceValues& out);
 
 }  // namespace saltus

@@ -1,10 +1,10 @@
-// The bodies of a tree and gravity.
+// The bodies of a tree, gravity and other potentials.
 #pragma once
 
 #include <vector>
 
 #include "saltus/export.hpp"
-#include "saltus/spatial/spatial.hpp"
+#include "saltus/lagrangian/potentials.hpp"
 
 namespace saltus {
 
@@ -29,6 +29,7 @@ struct MassModel {
   VecX armature = {};   ///< (n_v) [kg m^2 | kg]
   VecX stiffness = {};  ///< (n_v) [N m/rad | N/m]
   VecX rest = {};       ///< (n_v) [rad | m]
+  Potentials potentials = {};
 };
 
 }  // namespace saltus

@@ -31,11 +31,12 @@ struct PackedForces {
 SALTUS_EXPORT void set_accelerations(const Tree& tree, const PackedTree& packed, const VecRef& a,
                                      PackedForces& out);
 
-/// tau: what the joints must do for these accelerations, gravity and joints' springs acting, their
-/// armature included; needs place, move and set_accelerations.
+/// tau: what the joints must do for these accelerations, gravity and all other potentials acting,
+/// armature included; needs place, move and set_accelerations. @throws StepError as first_pass.
 SALTUS_EXPORT void newton_euler(const PackedTree& packed, const Packed& w, PackedForces& out);
 
-/// tau <- what gravity does, S.[h x g; m g] of the subtrees; needs mass_pass or first_pass.
+/// tau <- what gravity does, S.[h x g; m g] of the subtrees, less what is compensated; needs
+/// mass_pass or first_pass.
 SALTUS_EXPORT void gravity_pass(const PackedTree& packed, const Packed& w, PackedForces& out);
 
 }  // namespace saltus

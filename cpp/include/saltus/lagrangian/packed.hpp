@@ -63,10 +63,21 @@ struct Packed {
   /// Q_q, Q_v: slopes of a force on one coordinate by that coordinate, in the slots that
   /// PackedTree::slot_of_velocity names. Written by whoever adds forces to L_q; else empty.
   Blocks<2> slope;
-  /// Forces on several one-degree coordinates at once, each along a column g of `coupled`: their
-  /// slopes by g.q and g.v. By the same; without columns where there are none.
-  MatX coupled;        ///< (n_v, r)
-  VecX coupled_slope;  ///< (2 r) of each column by g.q, by g.v
+  /// Forces that several coordinates feel and make: Q_q = g_0 q_0^T + g_1 q_1^T + ..., with g in
+  /// `coupled`, q in `coupled_q`, and Q_v likewise. The first PackedTree::columns are those of
+  /// potentials, by second_pass; others by whoever adds forces to L_q. No columns where none act.
+  MatX coupled, coupled_q, coupled_v;  ///< (n_v, r)
+  // place, where the tree has potentials
+  struct PlacedSpring {
+    Vec3 P_a, P_b;  ///< [m] its ends, from O of their trees
+    Vec3 r, force;  ///< [m] P_a - P_b in the world; [N] on a
+    double d;       ///< [m] |r|
+  };
+  std::vector<PlacedSpring> springs;
+  VecX pull;           ///< (n_v) -V_q of all but functions
+  VecX pull_size;      ///< (n_v) of the terms it is a sum of
+  VecX q;              ///< (n_q) by set_coordinates, for functions; else empty
+  VecX function_pull;  ///< (n_v) -V_q of functions, by first_pass; else empty
 };
 
 /// s <- what the drives make of q (n_q).
@@ -80,7 +91,7 @@ SALTUS_EXPORT void set_rates(const Tree& tree, const PackedTree& packed, const V
 SALTUS_EXPORT void place(const PackedTree& packed, Packed& w);
 /// V and W; needs place and set_rates.
 SALTUS_EXPORT void move(const PackedTree& packed, Packed& w);
-/// L_v, L_q; needs move.
+/// L_v, L_q; needs move. @throws StepError where a spring with a length has both ends in one point.
 SALTUS_EXPORT void first_pass(const PackedTree& packed, Packed& w);
 /// L_v', L_q' of an arc of duration tau; needs first_pass.
 SALTUS_EXPORT void arc_pass(const PackedTree& packed, double tau, Packed& w);

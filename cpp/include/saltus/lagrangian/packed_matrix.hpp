@@ -23,7 +23,8 @@
 // servos, is on the diagonal, a + tau^2/4 (k - Q_q) - tau/2 Q_v, and adds to its pivot; of a ball
 // -tau/2 C Q_v to Delta (theory, F1).
 //
-// Mimic joints tie distant branches together; there the dense matrix C^T J C is factored.
+// Mimic joints tie distant branches together; there the dense matrix C^T J C is factored, and so is
+// J where PackedTree::dense_arcs says so.
 #pragma once
 
 #include <Eigen/LU>
@@ -65,19 +66,20 @@ struct PackedMatrix {
   std::vector<int> branch_of;   ///< (slots) index in `branch`, or -1
   Blocks<9> pivot;              ///< inverse of a ball's 3x3 pivot, as `ball`
 
-  // mimic joints
+  // mimic joints, dense arcs
+  bool is_dense = false;
   MatX dense;                    ///< (n_v, n_v)
   Eigen::PartialPivLU<MatX> lu;  ///< of dense
   VecX solution;                 ///< (n_v) scratch of solve
 
-  // forces on several coordinates, J += G D G^T, D = -tau/2 (slope_v + tau/2 slope_q), by
-  // J^-1 - J^-1 G (1 + D G^T J^-1 G)^-1 D G^T J^-1
+  // forces on several coordinates, J += G H^T, G = C g, H = -tau/2 (Q_v + tau/2 C^T Q_q), by
+  // J^-1 - J^-1 G (1 + H^T J^-1 G)^-1 H^T J^-1; C at balls, else 1 (theory, F1 and O2)
   bool is_coupled = false;
-  MatX G, JG;                          ///< (n_v, r) columns, and J^-1 of them
+  MatX G, H, JG;                       ///< (n_v, r), and J^-1 G
   VecX column;                         ///< (n_v) scratch
-  VecX D, Gx, Gy;                      ///< (r)
+  VecX Hx, Hy;                         ///< (r)
   MatX inner;                          ///< (r, r)
-  Eigen::PartialPivLU<MatX> inner_lu;  ///< of 1 + D G^T J^-1 G
+  Eigen::PartialPivLU<MatX> inner_lu;  ///< of 1 + H^T J^-1 G
 
   Blocks<1> x;  ///< scratch of solve, by slot
 };

@@ -12,6 +12,7 @@
 // Lanes that are left over hold joints without mass, whose numbers nobody reads.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "saltus/lagrangian/mass_model.hpp"
@@ -83,6 +84,8 @@ struct PackedBall {
   int velocity, coordinate;  ///< as in Ball
 };
 
+struct PackedPotentials;  ///< potentials.hpp with the paths of their points: packed/potentials.hpp
+
 struct PackedTree {
   std::vector<PackedGroup> groups;
   std::vector<PackedPlace> trees;
@@ -109,6 +112,11 @@ struct PackedTree {
   /// where no coordinate has any.
   Blocks<3> own;
   Vec3 gravity = Vec3::Zero();
+  /// Shared by copies, which do not change it; null where there are none.
+  std::shared_ptr<const PackedPotentials> potentials;
+  int columns = 0;  ///< that they add to Packed::coupled
+  /// J(tau) is factored as a dense matrix: forces that join several coordinates are many.
+  bool dense_arcs = false;
 };
 
 /// Sorts the joints into slots. Equal trees share lanes where `solver` is not sweep.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "saltus/model/force_specs.hpp"
 #include "saltus/model/loop_spec.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/model/named_state.hpp"
@@ -31,6 +32,7 @@ struct LinkSpec {
   std::string name;
   BodyInertia inertia = {};  ///< in the link's frame; not used of what cannot move
   InertiaCheck check = InertiaCheck::strict;
+  double compensation = 0;  ///< part of its weight that something else carries
 };
 
 /// This joint's displacement is `multiplier * (displacement of joint) + offset`.
@@ -73,6 +75,10 @@ struct JointSpec {
   double stiffness = 0, rest = 0;  ///< of a spring; [N m/rad | N/m], [rad | m]
   double limit_restitution = 0;    ///< at its stops
   JointEffects effects = JointEffects::all;
+  /// Instead of stiffness and rest: the spring resists with `curve_f` at `curve_x` and a cubic
+  /// spline between, of given slopes at its ends or natural ones (curve.hpp). Empty: none.
+  std::vector<double> curve_x = {}, curve_f = {};  ///< [rad | m], [N m | N]
+  std::optional<std::array<double, 2>> curve_slopes = {};
 };
 
 /// Work is told by actuator and by these, whose names actuators cannot have.
@@ -127,6 +133,9 @@ struct ModelDescription {
   std::vector<ActuatorSpec> actuators;
   std::vector<LoopSpec> loops;
   std::vector<CouplingSpec> couplings;
+  std::vector<SpringSpec> springs;
+  std::vector<ForceSpec> forces;
+  std::vector<PotentialFunction> potentials;
   std::vector<ShapeSpec> shapes;
   std::vector<Visual> visuals;
   FilterSpec filter;

@@ -7,10 +7,10 @@
 //   poses        X_WL of a link, X_WG of a shape
 //   jacobian     J (6, n_v): J v is the angular velocity and that of the frame's origin
 //   statics      gravity_forces, centre_of_mass, momentum
-//   dynamics     M a + c(q, v) = forces + gravity_forces + springs, c = 0 at rest
+//   dynamics     M a + c(q, v) = forces + gravity_forces + potentials, c = 0 at rest
 //
-// Joints' springs and armature are in the dynamics; contacts, limits, damping, friction and motors
-// are not.
+// Springs, other potentials and joints' armature are in the dynamics; contacts, limits, damping,
+// friction, motors and forces that are functions are not.
 #pragma once
 
 #include <optional>
@@ -56,10 +56,10 @@ class SALTUS_EXPORT Frames {
   /// Spatial momentum [kg m^2/s; kg m/s] about the world's origin.
   Vec6 momentum(const VecRef& v);
 
-  /// (n_v) [N m | N] what gravity does to the coordinates; holding still takes its
-  /// opposite.
+  /// (n_v) [N m | N] what gravity does to the coordinates, less what is compensated; holding
+  /// still takes its opposite.
   void gravity_forces(VecX& out);
-  /// M a + c - gravity_forces - springs (n_v): the forces that make these accelerations.
+  /// M a + c - gravity_forces - potentials (n_v): the forces that make these accelerations.
   void inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out);
   /// The accelerations (n_v) under gravity and `forces` (n_v).
   /// @throws StepError where the mass matrix is singular.

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "saltus/constraint/equality.hpp"
+#include "saltus/model/at.hpp"
 
 namespace saltus {
-
-/// A frame on a link: what acts at a point there is attached to its origin.
-struct At {
-  std::string link;
-  Pose X_LA = {};  ///< in the link's frame
-};
 
 struct LoopSpec {
   std::string name;

@@ -129,6 +129,20 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_coupling(const std::string& joint, const std::string& of,
                              const std::vector<double>& polynomial);
 
+  /// A spring that resists with `f` at the displacements `x` [rad | m], ascending, and with a cubic
+  /// spline between; V is its integral from the first. Ends are natural, or have these slopes.
+  ModelBuilder& add_joint_spring(const std::string& joint, std::vector<double> x,
+                                 std::vector<double> f,
+                                 const std::optional<std::array<double, 2>>& slopes = {});
+  /// V = stiffness (d - length)^2 / 2 and the force -damping d' along the line between two points.
+  /// @throws ModelError on unknown links, negative numbers, both points on one body
+  ModelBuilder& add_spring(const SpringSpec& spring);
+  /// Something carries `part` of the link's weight: gravity pulls at the rest of it alone.
+  ModelBuilder& set_gravity_compensation(const std::string& link, double part = 1);
+  /// A force that is a function of (t, q, v). A model that has one cannot be sent elsewhere.
+  ModelBuilder& add_force(const ForceSpec& force);
+  /// A potential V(q) with its gradient and Hessian along velocities. Likewise.
+  ModelBuilder& add_potential(const PotentialFunction& potential);
   /// What of these acts, of one joint or of all there are now.
   ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
   ModelBuilder& set_effects(JointEffects effects);

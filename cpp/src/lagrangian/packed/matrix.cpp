@@ -99,8 +99,10 @@ void set_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
   });
 }
 
-bool factorize_dense(const Tree& tree, const PackedTree& t, PackedMatrix& J) {
+bool factorize_dense(const Tree& tree, const PackedTree& t, const Packed& w, double tau,
+                     PackedMatrix& J) {
   set_dense(tree, t, J);
+  if (packed::set_coupled(t, w, tau, J)) packed::add_coupled(J);
   J.lu.compute(J.dense);
   const auto pivots = J.lu.matrixLU().diagonal().array();
   return pivots.isFinite().all() && (pivots.abs() > 0).all();
@@ -116,8 +118,9 @@ PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& packed)
   inverse.resize(n);
   x.resize(n);
   added.reserve(n);
+  const bool may_be_dense = !packed.one_to_one || packed.dense_arcs;
   const std::size_t rows =
-      static_cast<std::size_t>(packed.one_to_one ? packed.lu_row_blocks : packed.row_blocks);
+      static_cast<std::size_t>(may_be_dense ? packed.row_blocks : packed.lu_row_blocks);
   lower.resize(rows);
   upper.resize(rows);
   if (!packed.balls.empty()) {
@@ -125,7 +128,7 @@ PackedMatrix::PackedMatrix(const Tree& tree, const PackedTree& packed)
     ball_k.resize(n);
   }
   if (has_sweep(packed)) prepare_sweep(packed, *this);
-  if (packed.one_to_one) return;
+  if (!may_be_dense) return;
   dense.setIdentity(tree.n_v, tree.n_v);
   solution.setZero(tree.n_v);
   lu.compute(dense);  // allocates here, so that factorize does not
@@ -142,9 +145,8 @@ bool factorize(const Tree& tree, const PackedTree& t, const Packed& w, double ta
   }
   packed::set_own_pivots(t, w, tau, J);
   J.is_coupled = false;
-  if (!t.one_to_one) {
-    return factorize_dense(tree, t, J) && packed::factorize_coupled(tree, t, w, tau, J);
-  }
+  J.is_dense = !t.one_to_one || (t.dense_arcs && tau > 0);
+  if (J.is_dense) return factorize_dense(tree, t, w, tau, J);
   for (const PackedGroup& g : t.groups) {
     if (!g.sweep) {
       packed::multiply_lu(g, J);
@@ -175,10 +177,10 @@ void pull_back(const PackedTree& t, const PackedMatrix& J, int first, VecX& x) {
 }  // namespace
 
 void solve_scaled(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
-  if (!t.one_to_one) {
+  if (J.is_dense) {
     J.solution = J.lu.solve(x);
     x = J.solution;
-    return packed::solve_coupled(J, x);
+    return;
   }
   for (int i = 0; i < tree.joints(); ++i) *at(J.x, t.slot[i]) = x[i];
   for (const PackedGroup& g : t.groups) {

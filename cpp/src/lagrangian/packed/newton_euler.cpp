@@ -3,6 +3,7 @@
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "lagrangian/packed/own_terms.hpp"
+#include "lagrangian/packed/potentials.hpp"
 
 namespace saltus {
 namespace packed {
@@ -84,10 +85,12 @@ void newton_euler(const PackedTree& t, const Packed& w, PackedForces& out) {
   packed::sum_wrenches(t, w, out);
   packed::set_torques(t, w, out);
   packed::add_own_torques(t, w, out);
+  if (t.potentials != nullptr) packed::add_potential_torques(t, w, out);
 }
 
 void gravity_pass(const PackedTree& t, const Packed& w, PackedForces& out) {
   packed::set_pulls(t, w, out);
+  if (t.potentials != nullptr) packed::add_compensation(t, w, out);
 }
 
 }  // namespace saltus

@@ -4,6 +4,8 @@
 // coordinates do.
 #include "lagrangian/packed/own_terms.hpp"
 
+#include "lagrangian/packed/potentials.hpp"
+
 #include <cmath>
 
 namespace saltus::packed {
@@ -56,19 +58,19 @@ void add_own_products(const PackedTree& t, const Packed& w, PackedProducts& out)
   for_each_own(t, [&](int slot, double, double stiffness, double) {
     at(out.by_joint, slot)[2 * lanes] -= stiffness * *at(w.s_dot, slot);
   });
-  if (w.slope.empty()) return;
-  for (const int slot : t.slot_of_velocity) {
+  if (t.potentials != nullptr) add_curve_products(t, w, out);
+  for (std::size_t c = 0; c < t.slot_of_velocity.size() && !w.slope.empty(); ++c) {
+    const int slot = t.slot_of_velocity[c];
     at(out.by_joint, slot)[2 * lanes] += *at(w.slope, slot) * *at(w.s_dot, slot);
   }
   const std::vector<int>& slots = t.slot_of_velocity;
   for (Eigen::Index r = 0; r < w.coupled.cols(); ++r) {
     double rate = 0;
     for (std::size_t c = 0; c < slots.size(); ++c) {
-      rate += w.coupled(static_cast<Eigen::Index>(c), r) * *at(w.s_dot, slots[c]);
+      rate += w.coupled_q(static_cast<Eigen::Index>(c), r) * *at(w.s_dot, slots[c]);
     }
     for (std::size_t c = 0; c < slots.size(); ++c) {
-      at(out.by_joint, slots[c])[2 * lanes] +=
-          w.coupled(static_cast<Eigen::Index>(c), r) * w.coupled_slope[2 * r] * rate;
+      at(out.by_joint, slots[c])[2 * lanes] += w.coupled(static_cast<Eigen::Index>(c), r) * rate;
     }
   }
 }
@@ -91,7 +93,8 @@ void add_own_shadow(const PackedTree& t, const Packed& w, ShadowTerm& out) {
 
 void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J) {
   const bool has_slopes = tau > 0 && !w.slope.empty();
-  if (t.own.empty() && !has_slopes) {
+  const bool has_curves = t.potentials != nullptr && !t.potentials->curves.empty();
+  if (t.own.empty() && !has_slopes && !has_curves) {
     J.added.clear();
     return;
   }
@@ -99,6 +102,7 @@ void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatr
   for_each_own(t, [&](int slot, double armature, double stiffness, double) {
     *at(J.added, slot) = armature + tau * tau / 4 * stiffness;
   });
+  if (has_curves) add_curve_pivots(t, w, tau, J);
   if (!has_slopes) return;
   for (const PackedBall& ball : t.balls) {
     add_to_ball(ball, at(w.slope, ball.slot[2])[lanes], tau, J);
@@ -124,22 +128,43 @@ void add_to_diagonal(const PackedGroup& g, PackedMatrix& J) {
   }
 }
 
+bool set_coupled(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J) {
+  if (w.coupled.cols() == 0 || !(tau > 0)) return false;
+  if (w.coupled_q.isZero(0) && w.coupled_v.isZero(0)) return false;
+  J.G = w.coupled;
+  J.H = tau / 2 * w.coupled_q;
+  for (const PackedBall& ball : t.balls) {
+    const double* C = at(J.ball, ball.slot[2]) + 9 * lanes;
+    const Eigen::Map<const Mat3, 0, Eigen::Stride<3 * lanes, lanes>> map(C);
+    for (Eigen::Index r = 0; r < J.G.cols(); ++r) {
+      J.G.col(r).segment<3>(ball.velocity) = map * w.coupled.col(r).segment<3>(ball.velocity);
+      const Vec3 by_middle = J.H.col(r).segment<3>(ball.velocity);
+      J.H.col(r).segment<3>(ball.velocity) = map.transpose() * by_middle;
+    }
+  }
+  J.H += w.coupled_v;
+  J.H *= -tau / 2;
+  return true;
+}
+
+void add_coupled(PackedMatrix& J) {
+  for (Eigen::Index r = 0; r < J.G.cols(); ++r) {
+    J.dense.noalias() += J.G.col(r) * J.H.col(r).transpose();
+  }
+}
+
 bool factorize_coupled(const Tree& tree, const PackedTree& t, const Packed& w, double tau,
                        PackedMatrix& J) {
-  const Eigen::Index n = w.coupled.cols();
-  J.is_coupled = false;
-  if (n == 0 || !(tau > 0) || w.coupled_slope.isZero(0)) return true;
-  J.G = w.coupled;
+  if (!set_coupled(t, w, tau, J)) return true;
+  const Eigen::Index n = J.G.cols();
   J.JG.resize(J.G.rows(), n);
-  for (VecX* each : {&J.D, &J.Gx, &J.Gy}) each->resize(n);
+  for (VecX* each : {&J.Hx, &J.Hy}) each->resize(n);
   for (Eigen::Index r = 0; r < n; ++r) {
     J.column = J.G.col(r);
     solve_scaled(tree, t, J, J.column);
     J.JG.col(r) = J.column;
-    J.D[r] = -tau / 2 * (w.coupled_slope[2 * r + 1] + tau / 2 * w.coupled_slope[2 * r]);
   }
-  J.inner.noalias() = J.G.transpose() * J.JG;
-  J.inner = J.D.asDiagonal() * J.inner;
+  J.inner.noalias() = J.H.transpose() * J.JG;
   J.inner.diagonal().array() += 1;
   J.inner_lu.compute(J.inner);
   const auto pivots = J.inner_lu.matrixLU().diagonal().array();
@@ -149,10 +174,9 @@ bool factorize_coupled(const Tree& tree, const PackedTree& t, const Packed& w, d
 
 void solve_coupled(PackedMatrix& J, VecX& x) {
   if (!J.is_coupled) return;
-  J.Gx.noalias() = J.G.transpose() * x;
-  J.Gx.array() *= J.D.array();
-  J.Gy = J.inner_lu.solve(J.Gx);
-  x.noalias() -= J.JG * J.Gy;
+  J.Hx.noalias() = J.H.transpose() * x;
+  J.Hy = J.inner_lu.solve(J.Hx);
+  x.noalias() -= J.JG * J.Hy;
 }
 
 }  // namespace saltus::packed

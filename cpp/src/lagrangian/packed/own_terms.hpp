@@ -25,6 +25,10 @@ void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatr
 /// To the rows of a group that lu solves.
 void add_to_diagonal(const PackedGroup& g, PackedMatrix& J);
 
+/// Writes J.G and J.H. Needs K and C of balls. @return false where they are 0
+bool set_coupled(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J);
+/// J.dense += G H^T.
+void add_coupled(PackedMatrix& J);
 /// Factors of what forces on several coordinates add to J, whose other factors are there.
 /// @return false where they make it singular
 bool factorize_coupled(const Tree& tree, const PackedTree& t, const Packed& w, double tau,

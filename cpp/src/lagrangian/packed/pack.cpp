@@ -3,6 +3,7 @@
 #include <map>
 
 #include "lagrangian/packed/lane.hpp"
+#include "lagrangian/packed/potentials.hpp"
 
 namespace saltus {
 namespace {
@@ -220,6 +221,7 @@ PackedTree pack(const Tree& tree, const MassModel& mass, TreeSolver solver) {
     packed::add_up<1>(g, t.weight, 0);
     place_in_world(g, t);
   }
+  packed::set_potentials(tree, mass.potentials, t);
   return t;
 }
 

@@ -3,6 +3,7 @@
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "lagrangian/packed/own_terms.hpp"
+#include "lagrangian/packed/potentials.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
 namespace saltus {
@@ -139,20 +140,26 @@ void first_pass(const PackedTree& t, Packed& w) {
   packed::sum_momenta(t, w);
   packed::set_first(t, w);
   packed::add_own_partials(t, w);
+  if (t.potentials != nullptr) packed::add_potential_partials(t, w);
 }
 
 void arc_pass(const PackedTree& t, double tau, Packed& w) {
   w.arc = w.first;
   packed::correct_momenta(t, tau, w);
+  if (t.potentials != nullptr) packed::add_potential_arcs(t, tau, w);
 }
 
 void scale_pass(const PackedTree& t, double tau, Packed& w) {
   packed::set_terms(t, w);
   packed::set_scale(t, tau, w);
   packed::add_own_scale(t, tau, w);
+  if (t.potentials != nullptr) packed::add_potential_scale(t, tau, w);
 }
 
-void second_pass(const PackedTree& t, Packed& w) { packed::set_generators(t, w); }
+void second_pass(const PackedTree& t, Packed& w) {
+  packed::set_generators(t, w);
+  if (t.potentials != nullptr) packed::add_potential_generators(t, w);
+}
 
 void mass_pass(const PackedTree& t, Packed& w) {
   packed::set_inertias(t, w);
@@ -161,6 +168,7 @@ void mass_pass(const PackedTree& t, Packed& w) {
 
 double potential_energy(const PackedTree& t, const Packed& w) {
   double V = packed::own_energy(t, w);
+  if (t.potentials != nullptr) V += packed::potential_energy_of(t, w);
   for (const PackedGroup& g : t.groups) {
     for (int lane = 0; lane < g.trees; ++lane) {
       const double *I_h = at(w.I_h, g.first + lane), *p = at(w.p, g.first + lane);

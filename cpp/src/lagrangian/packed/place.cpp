@@ -8,6 +8,7 @@
 // p is from the reference point O of the tree, as in kinematics.hpp.
 #include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/lane.hpp"
+#include "lagrangian/packed/potentials.hpp"
 #include "lagrangian/packed/turn.hpp"
 #include "saltus/lagrangian/packed.hpp"
 
@@ -176,6 +177,7 @@ Packed::Packed(const PackedTree& tree) {
   terms.resize(n);
   arc.resize(n);
   U_F_G.resize(n);
+  packed::prepare_potentials(tree, *this);
   if (tree.balls.empty()) return;
   ball.resize(n);
   ball_arc.resize(n);
@@ -190,6 +192,7 @@ void set_coordinates(const Tree& tree, const PackedTree& t, const VecRef& q, Pac
     double* to = at(w.ball, ball.slot[2]);
     for (int c = 0; c < 4; ++c) to[c * lanes] = q[ball.coordinate + c];
   }
+  if (w.q.size() > 0) w.q = q;
 }
 
 void set_rates(const Tree& tree, const PackedTree& t, const VecRef& v, Packed& w) {
@@ -207,6 +210,7 @@ void place(const PackedTree& t, Packed& w) {
   packed::chain_frames(t, w);
   packed::set_screws(t, w);
   packed::set_ball_screws(t, w);
+  if (t.potentials != nullptr) packed::set_pull(t, w);
 }
 
 void move(const PackedTree& t, Packed& w) {

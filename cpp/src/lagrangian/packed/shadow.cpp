@@ -19,6 +19,7 @@
 #include "lagrangian/packed/inertia.hpp"
 #include "lagrangian/packed/lane.hpp"
 #include "lagrangian/packed/own_terms.hpp"
+#include "lagrangian/packed/potentials.hpp"
 
 namespace saltus {
 namespace packed {
@@ -161,6 +162,7 @@ void shadow_gradient(const Tree& tree, const PackedTree& t, const Packed& w, con
   packed::set_momenta(t, w, out);
   packed::set_by_joint(t, w, out);
   packed::add_own_shadow(t, w, out);
+  if (t.potentials != nullptr) packed::add_potential_shadow(t, w, out);
   out.kappa = 0;
   for (const int slot : t.slot) out.kappa += *at(out.by_joint, slot);
   gather(tree, t, out.by_joint, 1, out.kappa_q);

@@ -52,10 +52,10 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   place(packed, s.w);
   move(packed, s.w);
   first_pass(packed, s.w);
-  if (s.has_forces) add_forces(model, v, s);
+  if (s.has_forces) add_forces(model, a.t + a.tau / 2, v, s);
   s.has_second = false;
   arc_pass(packed, a.tau, s.w);
-  if (s.has_forces) add_ball_forces(model, a.tau, v, s);
+  if (s.has_forces) add_ball_pull(packed, a.tau, s.forces.Q, s.w);
   gather(tree, packed, s.w.arc, 0, s.L_v);
   gather(tree, packed, s.w.arc, 1, s.L_q);
 }
@@ -158,7 +158,7 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
 void set_second_partials(const ModelData& model, ArcScratch& s) {
   if (s.has_second) return;
   second_pass(model.packed, s.w);
-  if (s.has_forces) add_wrench_partials(model, s);
+  if (s.has_forces) add_force_partials(model, s);
   s.has_second = true;
 }
 

@@ -38,6 +38,7 @@
 #include "saltus/variational/options.hpp"
 #include "variational/arc/arc_loops.hpp"
 #include "variational/arc/launch_line.hpp"
+#include "variational/arc/point_dampers.hpp"
 
 namespace saltus {
 
@@ -47,6 +48,7 @@ struct ArcProblem {
   double tau;
   LaunchLine* launch = nullptr;  ///< none; not one whose use is none
   double whole = 0;  ///< [s] the step h that the arc is a part of, under `compensated`; else 0
+  double t = 0;      ///< [s] when it starts, for forces that are functions of time
   ArcLoops* loops = nullptr;  ///< none where the model has none
 };
 
@@ -77,9 +79,11 @@ struct Compensation {
 struct ArcScratch {
   ArcScratch(const ModelData& model, ImpactLaw law);
   std::optional<Compensation> compensation;
-  std::optional<ArcLoops> loops;      ///< where the model has some
-  ForceValues forces;                 ///< of the last evaluation; written where has_forces
-  VecX wrench_force;                  ///< (n_v) the part of them that wrenches on bodies make
+  std::optional<ArcLoops> loops;  ///< where the model has some
+  ForceValues forces;             ///< of the last evaluation; written where has_forces
+  VecX wrench_force;              ///< (n_v) the part of them that wrenches on bodies make
+  VecX point_pull;                ///< (n_v) likewise dampers between points
+  std::vector<PlacedDamper> dampers;
   const ForceInput* input = nullptr;  ///< what drives the step; written by the stepper
   bool has_forces = false;            ///< likewise: the model or the input has some
   Packed w;

@@ -8,10 +8,6 @@ struct PlacedWrench {
   Vec3 r, force, torque;
 };
 
-Eigen::Map<const Vec3, 0, Eigen::InnerStride<lanes>> three(const double* x) {
-  return Eigen::Map<const Vec3, 0, Eigen::InnerStride<lanes>>(x);
-}
-
 PlacedWrench place_wrench(const ModelData& model, const AppliedWrench& wrench, const Packed& w) {
   const int slot = model.packed.slot[wrench.joint];
   Mat3 R;
@@ -44,17 +40,50 @@ void prepare_forces(const ModelData& model, ArcScratch& s) {
   s.has_forces = model.forces.acts();
   if (!s.has_forces) return;
   s.w.slope.resize(static_cast<std::size_t>(model.packed.slots / lanes));
-  s.w.coupled = s.forces.coupled;
-  s.w.coupled_slope = s.forces.slope;
+  s.dampers = pack_dampers(model);
+  s.point_pull.setZero(model.tree.n_v);
+  const Eigen::Index own = model.packed.columns, geared = s.forces.coupled.cols();
+  for (MatX* each : {&s.w.coupled, &s.w.coupled_q, &s.w.coupled_v}) {
+    each->setZero(model.tree.n_v, own + geared + model.forces.n_columns());
+  }
+  s.w.coupled.middleCols(own, geared) = s.forces.coupled;
+  Eigen::Index column = own + geared + static_cast<Eigen::Index>(3 * s.dampers.size());
+  for (const FunctionForce& each : model.forces.functions) {
+    for (const int c : each.velocities) s.w.coupled(c, column++) = 1;
+  }
 }
 
-void add_forces(const ModelData& model, const VecX& v, ArcScratch& s) {
+namespace {
+
+/// Slopes of actuators over several coordinates, along their columns.
+void set_geared_slopes(const ModelData& model, ArcScratch& s) {
+  const Eigen::Index own = model.packed.columns;
+  for (Eigen::Index r = 0; r < s.forces.coupled.cols(); ++r) {
+    s.w.coupled_q.col(own + r) = s.forces.slope[2 * r] * s.forces.coupled.col(r);
+    s.w.coupled_v.col(own + r) = s.forces.slope[2 * r + 1] * s.forces.coupled.col(r);
+  }
+}
+
+void add_dampers(const ModelData& model, ArcScratch& s) {
+  if (s.dampers.empty()) return;
+  if (model.forces.damping.size() == 0) s.forces.damping.setZero();
+  s.point_pull.setZero();
+  for (PlacedDamper& each : s.dampers) add_damper(s.w, each, s.point_pull, s.forces.size);
+  s.forces.damping += s.point_pull;
+  s.forces.Q += s.point_pull;
+}
+
+}  // namespace
+
+void add_forces(const ModelData& model, double t, const VecX& v, ArcScratch& s) {
   static const ForceInput nothing;
   const ForceInput& input = s.input != nullptr ? *s.input : nothing;
   set_forces(model.forces, s.q, v, input, s.forces);
   s.wrench_force.setZero();
   for (const AppliedWrench& wrench : input.wrenches) add_wrench(model, wrench, s);
   s.forces.Q += s.wrench_force;
+  add_dampers(model, s);
+  add_functions(model.forces, {t, s.q, v}, s.forces);
   for (int c = 0; c < model.tree.n_v; ++c) {
     const int slot = model.packed.slot_of_velocity[c];
     at(s.w.first, slot)[lanes] += s.forces.Q[c];
@@ -63,21 +92,39 @@ void add_forces(const ModelData& model, const VecX& v, ArcScratch& s) {
     slope[0] = s.forces.Q_q[c];
     slope[lanes] = s.forces.Q_v[c];
   }
-  if (s.w.coupled.cols() > 0) s.w.coupled_slope = s.forces.slope;
+  set_geared_slopes(model, s);
 }
 
-void add_ball_forces(const ModelData& model, double tau, const VecX& v, ArcScratch& s) {
-  for (const PackedBall& ball : model.packed.balls) {
-    const Vec3 Q = s.forces.Q.segment<3>(ball.velocity);
-    if (Q.isZero(0)) continue;
-    const double c2 = at(s.w.ball_arc, ball.slot[2])[lanes];
-    const Vec3 f = tau * v.segment<3>(ball.velocity), more = tau / 2 * c2 * f.cross(Q);
-    for (int axis = 0; axis < 3; ++axis) {
-      double* arc = at(s.w.arc, ball.slot[axis]);
-      arc[0] += more[axis];
-      arc[lanes] += Q[axis];
-    }
+namespace {
+
+/// Of functions, whose columns are one for each coordinate that they push.
+void set_function_slopes(const ModelData& model, Eigen::Index column, ArcScratch& s) {
+  for (std::size_t k = 0; k < s.forces.answers.size(); ++k) {
+    const ForceAnswer& answer = s.forces.answers[k];
+    const auto m = static_cast<Eigen::Index>(model.forces.functions[k].velocities.size());
+    const auto take = [&](const MatX& from, MatX& to) {
+      if (from.size() > 0) {
+        to.middleCols(column, m) = from.transpose();
+      } else {
+        to.middleCols(column, m).setZero();
+      }
+    };
+    take(answer.Q_q, s.w.coupled_q);
+    take(answer.Q_v, s.w.coupled_v);
+    column += m;
   }
+}
+
+}  // namespace
+
+void add_force_partials(const ModelData& model, ArcScratch& s) {
+  Eigen::Index column = model.packed.columns + s.forces.coupled.cols();
+  for (const PlacedDamper& each : s.dampers) {
+    add_damper_partials(each, column, s.w);
+    column += 3;
+  }
+  set_function_slopes(model, column, s);
+  add_wrench_partials(model, s);
 }
 
 void add_wrench_partials(const ModelData& model, ArcScratch& s) {

@@ -8,12 +8,13 @@ namespace saltus {
 /// For forces on this model, with no input yet.
 void prepare_forces(const ModelData& model, ArcScratch& s);
 
-/// Adds Q at (s.q, v) to the L_q of s.w; writes s.forces and the slopes in s.w. Needs first_pass.
-void add_forces(const ModelData& model, const VecX& v, ArcScratch& s);
+/// Adds Q at (t, s.q, v) to the L_q of s.w; writes s.forces and the slopes by single coordinates in
+/// s.w. Needs first_pass.
+void add_forces(const ModelData& model, double t, const VecX& v, ArcScratch& s);
 
-/// Adds Q to the L_q' of balls, which arc_pass makes without L_q, and tau/2 c2 f x Q to their L_v'
-/// (packed.hpp). Needs arc_pass.
-void add_ball_forces(const ModelData& model, double tau, const VecX& v, ArcScratch& s);
+/// Writes what forces that join coordinates have in Newton's matrix: the columns of dampers and
+/// functions in s.w, and generators of dampers and wrenches. Needs second_pass.
+void add_force_partials(const ModelData& model, ArcScratch& s);
 
 /// Adds what the pull of wrenches changes with the configuration to the generators of L_qq: that of
 /// a force at a point of a body, in the world's axes. Torques and forces in the body's axes are

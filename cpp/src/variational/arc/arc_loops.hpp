@@ -18,14 +18,14 @@ struct Arc;
 
 struct ArcLoops {
   explicit ArcLoops(const ModelData& model);
-  const MatX* A = nullptr;  ///< (n_v, m) at the arc's start; written by arc_problem
-  VecX mu;                  ///< (m) [N s | N m s] guess in, solution out
-  VecX push, size;          ///< (n_v) A mu, and of its terms
-  EqualityValues end;       ///< at the arc's end, or its start where tau = 0
-  EqualitySolver solver;    ///< of J, A and C
-  VecX dmu;                 ///< (m) of the last step
-  std::vector<int> joints;  ///< whose poses h needs
-  VecX rate;                ///< (m) scratch
+  const Columns* A = nullptr;  ///< (n_v, m) at the arc's start; written by arc_problem
+  VecX mu;                     ///< (m) [N s | N m s] guess in, solution out
+  VecX push, size;             ///< (n_v) A mu, and of its terms
+  EqualityValues end;          ///< at the arc's end, or its start where tau = 0
+  EqualitySolver solver;       ///< of J, A and C
+  VecX dmu;                    ///< (m) of the last step
+  std::vector<int> joints;     ///< whose poses h needs
+  VecX rate;                   ///< (m) scratch
 };
 
 /// Adds A mu to the residual r and, unless the scale is kept, its size to the scale.

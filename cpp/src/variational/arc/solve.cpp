@@ -118,7 +118,7 @@ ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork
     loops = &*work.scratch.loops;
     loops->A = &node.loops.values.A;
   }
-  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), loops};
+  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), node.t, loops};
 }
 
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {

@@ -20,7 +20,7 @@ bool hold_loops(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
   NodeEqualities& loops = node.loops;
   set_equalities(model.tree, model.equalities, node.kin, node.q, loops.values);
-  const MatX& A = loops.values.A;
+  const Columns& A = loops.values.A;
   EqualitySolver& solver = loops.solver;
   solver.C = A;
   for (Eigen::Index k = 0; k < A.cols(); ++k) {

@@ -12,7 +12,7 @@ constexpr double independent = 1e-8, redundant = 1e-11;
 
 EqualitySolver::EqualitySolver(int n_v, int rows)
     : lu_(rows, rows), svd_(rows, rows, Eigen::ComputeFullU | Eigen::ComputeFullV) {
-  for (MatX* each : {&C, &Y}) each->setZero(n_v, rows);
+  for (Columns* each : {&C, &Y}) each->setZero(n_v, rows);
   for (VecX* each : {&mu, &scale_, &none_, &y_}) each->setZero(rows);
   S_.setZero(rows, rows);
 }

@@ -12,7 +12,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "saltus/spatial/spatial.hpp"
+#include "saltus/constraint/equality.hpp"
 
 namespace saltus {
 
@@ -20,7 +20,7 @@ struct EqualitySolver {
   EqualitySolver() = default;
   EqualitySolver(int n_v, int rows);
 
-  MatX C, Y;          ///< (n_v, m) written by who uses it
+  Columns C, Y;       ///< (n_v, m) written by who uses it
   VecX mu;            ///< (m) of the last `meet`
   int weak_row = -1;  ///< of a rank that changes, where factorize failed; else -1
 

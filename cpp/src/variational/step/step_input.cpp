@@ -51,9 +51,16 @@ void Stepper::Impl::add_work(double tau, const VecX& v, const ForceValues& force
     done_size += std::abs(each);
   };
   for (Eigen::Index k = 0; k < n; ++k) add(k, forces.effort[k] * forces.rate[k]);
-  if (scene.model.forces.damping.size() > 0) add(n, forces.damping.dot(v));
+  const ForceModel& own = scene.model.forces;
+  if (own.damping.size() > 0 || !own.dampers.empty()) add(n, forces.damping.dot(v));
   double applied = wrench_force.dot(v);
   if (input.qfrc.size() > 0) applied += input.qfrc.dot(v);
+  for (std::size_t k = 0; k < forces.answers.size(); ++k) {
+    const std::vector<int>& pushed = own.functions[k].velocities;
+    for (std::size_t i = 0; i < pushed.size(); ++i) {
+      applied += forces.answers[k].Q[static_cast<Eigen::Index>(i)] * v[pushed[i]];
+    }
+  }
   add(n + 2, applied);
 }
 

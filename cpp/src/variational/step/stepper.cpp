@@ -32,7 +32,13 @@ void check_law(const ModelData& model, ImpactLaw law) {
                          model.equalities.all.front().name + "\" is; nodal_energy is",
                      "loop", model.equalities.all.front().name);
   }
-  if (law != ImpactLaw::compensated || model.tree.balls.empty()) return;
+  if (law != ImpactLaw::compensated) return;
+  for (const PotentialFunction& each : model.mass.potentials.functions) {
+    throw ModelError("law compensated needs third derivatives, which potential \"" + each.name +
+                         "\" does not give; shadow_energy and discrete_energy do without",
+                     "potential", each.name);
+  }
+  if (model.tree.balls.empty()) return;
   for (const JointInfo& joint : model.joints) {
     if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
     throw ModelError("law compensated is not for floating and spherical joints, as \"" +
@@ -262,7 +268,8 @@ double Stepper::Impl::conserved_energy() {
     if (!solve(scene, 0, node, work)) fail(FlightOutcome::not_converged);
   }
   const Arc& arc = work.arc;
-  const ArcProblem problem{arc.q_start, node.p, arc.tau, nullptr, scene.whole_step()};
+  const ArcProblem problem{arc.q_start,        node.p,          arc.tau, nullptr,
+                           scene.whole_step(), node.t - arc.tau};
   return arc_energy(scene.model, problem, arc, work.scratch);
 }
 

@@ -11,21 +11,21 @@ namespace {
 constexpr int most_rounds = 12;  ///< in which rows join; 1 to 4 are usual
 
 /// L_v and L_q at (q, v), in s.
-void evaluate_at(const ModelData& model, const VecX& q, const VecX& p, const VecX& v,
+void evaluate_at(const ModelData& model, double t, const VecX& q, const VecX& p, const VecX& v,
                  ArcScratch& s) {
-  momentum_residual(model, {q, p, 0}, v, s);
+  momentum_residual(model, {q, p, 0, nullptr, 0, t}, v, s);
 }
 
 /// The velocity at the arc's end without contacts. Motors and dampers may be stiff: they act in the
 /// arc's middle, which one Newton step of its equation finds.
 void set_free_velocity(const Scene& scene, double tau, Node& node, ArcScratch& s, Unlocated& x) {
   const ModelData& model = scene.model;
-  evaluate_at(model, node.q, node.p, node.v, s);
+  evaluate_at(model, node.t, node.q, node.p, node.v, s);
   x.v_free = node.p + tau * s.L_q;
   x.work = 0;
   x.v_middle.resize(0);
   if (s.has_forces) {
-    const ArcProblem problem{node.q, node.p, tau};
+    const ArcProblem problem{node.q, node.p, tau, nullptr, 0, node.t};
     x.v = node.v;
     const auto evaluate = [&] { return std::isfinite(momentum_residual(model, problem, x.v, s)); };
     bool found = evaluate();
@@ -123,7 +123,7 @@ void stop_until_clear(const Scene& scene, double tau, const Node& node, Node& en
 bool set_momenta(const Scene& scene, double start, Node& end, ArcScratch& arc, Unlocated& x) {
   const double V = potential_energy(scene.model.packed, end.w);
   const double before = start + x.work;
-  evaluate_at(scene.model, x.q_end, end.p, x.v, arc);
+  evaluate_at(scene.model, end.t, x.q_end, end.p, x.v, arc);
   const double T = 0.5 * x.v.dot(arc.L_v), most = before - V;
   double part = 1;
   if (T > most) part = most > 0 ? std::sqrt(most / T) : 0;

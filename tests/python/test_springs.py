@@ -1,0 +1,397 @@
+"""Springs between points, dampers, curves, compensation of gravity, forces of the user."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import saltus
+from saltus import At, BodyInertia, JointType, ModelBuilder, ModelError, Pose
+
+H = 0.01
+
+
+def bob(gravity: float = 9.81) -> ModelBuilder:
+    """Return a point mass of 2 kg that flies, 1 m below a point of the world."""
+    builder = ModelBuilder("bob").set_gravity((0, 0, -gravity))
+    return builder.add_body("bob", saltus.Sphere(0.1), mass=2.0)
+
+
+def arm() -> ModelBuilder:
+    """Return two rods in a vertical plane."""
+    builder = ModelBuilder("arm")
+    for name, mass in (("upper", 2.0), ("lower", 1.0)):
+        builder.add_link(name, BodyInertia(mass, (0.4, 0, 0), np.diag([0.001, 0.05, 0.05])))
+    axis = (0, 1, 0)
+    revolute = JointType.revolute
+    builder.add_joint("shoulder", revolute, parent="world", child="upper", axis=axis)
+    X = Pose((0.8, 0, 0))
+    return builder.add_joint("elbow", revolute, parent="upper", child="lower", axis=axis, X_PJ=X)
+
+
+def test_a_mass_on_a_spring_swings_by_the_phase_of_the_midpoint_rule() -> None:
+    """A spring of length 0 is linear: three oscillators of one frequency, through d = 0."""
+    builder = bob(gravity=0).add_spring("s", a="bob", b=At("world", (0.1, 0, 0)), stiffness=50.0)
+    model = builder.build()
+    run = saltus.simulate(model, q={"bob_x": 0.4}, duration=2.0, h=H)
+    phase = 2 * math.atan(H * 5.0 / 2) * np.arange(201)  # omega = 5 rad/s
+    np.testing.assert_allclose(run.q[:, 0], 0.1 + 0.3 * np.cos(phase), atol=1e-13)
+    assert run.potential[0] == pytest.approx(0.5 * 50 * 0.3**2, rel=1e-14)
+    assert run.energy_error < 1e-13
+
+
+def test_a_spring_of_a_length_pulls_along_its_line() -> None:
+    model = bob(gravity=0).add_spring("s", a="bob", b="world", stiffness=50, length=0.5).build()
+    q = model.state({"bob_x": 0.3, "bob_y": 0.4, "bob_z": 1.2}).q
+    V_q = model.inverse_dynamics(q, np.zeros(6), np.zeros(6))
+    np.testing.assert_allclose(V_q[:3], 50 * (1.3 - 0.5) * np.array([0.3, 0.4, 1.2]) / 1.3)
+    assert model.potential_energy(q) == pytest.approx(25 * 0.8**2)
+    np.testing.assert_allclose(model.gravity_forces(q), 0)
+    a = model.accelerations(q, np.zeros(6), np.zeros(6))
+    np.testing.assert_allclose(a[:3], -V_q[:3] / 2)
+
+
+def test_a_damper_takes_the_energy_that_is_missing() -> None:
+    builder = arm()
+    builder.add_spring(
+        "s",
+        a=At("lower", (0.8, 0, 0)),
+        b=At("world", (0, 0, 1)),
+        stiffness=30,
+        length=0.6,
+        damping=2,
+    )
+    model = builder.build()
+    errors = []
+    for h in (0.01, 0.005):
+        run = saltus.simulate(model, q=[0.3, 0.5], duration=3.0, h=h)
+        assert run.work["damping"][-1] < -5
+        assert (np.diff(run.work["damping"]) <= 0).all()
+        errors.append(run.energy_error)
+    assert errors[0] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4, abs=0.3)  # order 2
+
+
+def test_a_spring_with_both_ends_in_one_point_is_named() -> None:
+    model = bob().add_spring("bungee", a="bob", b="world", stiffness=50, length=0.5).build()
+    state = model.state()
+    with pytest.raises(saltus.StepError, match='spring "bungee" has both ends in one point'):
+        saltus.Stepper(model, h=H).advance(state)
+    model = bob().add_spring("bungee", a="bob", b="world", stiffness=50).build()
+    saltus.Stepper(model, h=H).advance(model.state())
+
+
+def test_a_curve_is_a_spline_and_its_integral() -> None:
+    """A cubic with its own slopes at the ends is itself: V is known."""
+    angles = np.linspace(-1, 1, 6)
+    builder = arm().add_joint_spring("elbow", curve=(angles, 4 * angles**3), slopes=(12, 12))
+    model, plain = builder.build(), arm().build()
+    zero = np.zeros(2)
+    for x in (-0.9, 0.1, 0.77):
+        q = np.array([0.2, x])
+        more = model.inverse_dynamics(q, zero, zero) - plain.inverse_dynamics(q, zero, zero)
+        np.testing.assert_allclose(more, [0, 4 * x**3], atol=1e-13)
+        V = model.potential_energy(q) - plain.potential_energy(q)
+        assert pytest.approx(x**4 - 1, abs=1e-13) == V  # from the first point
+    beyond = model.lagrangian([0.0, 3.0], zero).L_q - plain.lagrangian([0.0, 3.0], zero).L_q
+    assert beyond[1] == pytest.approx(-(4 + 12 * 2))
+    run = saltus.simulate(model, q=[0.0, 0.8], duration=2.0, h=H)
+    assert run.energy_error < 1e-3
+
+
+def test_a_curve_of_a_joint_that_mimics_is_of_its_own_displacement() -> None:
+    builder = arm()
+    builder.add_link("finger", BodyInertia(0.1, (0.1, 0, 0), np.diag([1e-4, 1e-3, 1e-3])))
+    builder.add_joint(
+        "finger",
+        JointType.revolute,
+        parent="lower",
+        child="finger",
+        axis=(0, 1, 0),
+        mimic=saltus.Mimic("elbow", -2, 0.1),
+    )
+    plain = builder.build()
+    curved = builder.add_joint_spring("finger", curve=([-2, 0, 2], [-3, 0, 3])).build()
+    q, zero = np.array([0.0, 0.4]), np.zeros(2)
+    more = curved.inverse_dynamics(q, zero, zero) - plain.inverse_dynamics(q, zero, zero)
+    displacement = -2 * 0.4 + 0.1
+    np.testing.assert_allclose(more, [0, -2 * 1.5 * displacement])
+
+
+def test_a_compensated_arm_stands_still() -> None:
+    builder = arm()
+    for link in ("upper", "lower"):
+        builder.set_gravity_compensation(link)
+    model = builder.build()
+    np.testing.assert_allclose(model.gravity_forces([0.3, 0.4]), 0, atol=1e-14)
+    run = saltus.simulate(model, q=[0.3, 0.4], duration=1.0, h=H)
+    np.testing.assert_allclose(run.q, np.broadcast_to([0.3, 0.4], run.q.shape), atol=1e-12)
+    half = arm().set_gravity_compensation("lower", 0.5).build()
+    whole = arm().build().gravity_forces([0.3, 0.4])
+    assert half.gravity_forces([0.3, 0.4])[1] == pytest.approx(whole[1] / 2)
+
+
+SPRING_URDF = """<robot name="bob">
+  <link name="world"/>
+  <link name="bob"><inertial><mass value="2"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="slide" type="prismatic"><parent link="world"/><child link="bob"/>
+    <axis xyz="0 0 1"/><limit lower="-9" upper="9" effort="0" velocity="0"/></joint>
+  <saltus>
+    <spring name="s" link1="bob" xyz1="0 0 .1" link2="world" xyz2="0 0 3" stiffness="100"
+            length=".2" damping="1"/>
+    <gravity_compensation link="bob" part=".5"/>
+  </saltus>
+</robot>"""
+
+
+@pytest.mark.filterwarnings("ignore::saltus.ModelWarning")
+def test_a_file_says_it_in_its_block() -> None:
+    model = saltus.load_urdf(SPRING_URDF)
+    builder = saltus.read_urdf(
+        SPRING_URDF.replace("<spring", "<!-- ").replace('damping="1"/>', "-->")
+    )
+    ends = {"a": At("bob", (0, 0, 0.1)), "b": At("world", (0, 0, 3))}
+    same = builder.add_spring("s", **ends, stiffness=100, length=0.2, damping=1).build()
+    states = [saltus.Stepper(m, h=H).advance(m.state(v=[1.0])) for m in (model, same)]
+    assert states[0] == states[1]
+    assert model.gravity_forces([0.0])[0] == pytest.approx(-9.81)
+    wrong = SPRING_URDF.replace('link1="bob"', 'link1="bop"')
+    with pytest.raises(ModelError, match='no link "bop"; spring "s"'):
+        saltus.load_urdf(wrong)
+
+
+def test_models_keep_springs_in_copies_and_say_that_they_differ() -> None:
+    builder = arm().add_spring("s", a="lower", b="world", stiffness=30, length=0.1, damping=2)
+    builder.set_gravity_compensation("upper", 0.5)
+    builder.add_joint_spring("elbow", curve=([0, 1], [0, 2]), slopes=(1, 2))
+    model = builder.build()
+    again = pickle.loads(pickle.dumps(model))
+    a, b = (saltus.simulate(m, q=[0.1, 0.2], duration=0.3, h=H).q for m in (model, again))
+    np.testing.assert_array_equal(a, b)
+
+
+def test_a_run_of_a_changed_model_does_not_load_as_another(tmp_path) -> None:
+    """The file holds the text of the robot, which knows nothing of the spring."""
+    path = saltus.urdf_dir() / "arm.urdf"
+    builder = saltus.read_urdf(path)
+    links = [link.name for link in builder.build().links]
+    builder.add_spring("s", a=links[-1], b=At(links[0], (0, 0, 2)), stiffness=5)
+    run = saltus.simulate(builder.build(), duration=0.05, h=H)
+    run.save(tmp_path / "run.npz")
+    loaded = saltus.load(tmp_path / "run.npz")
+    np.testing.assert_array_equal(loaded.q, run.q)
+    with pytest.raises(ModelError):
+        loaded.model  # noqa: B018
+
+
+def test_parts_of_models_bring_their_springs() -> None:
+    other = arm().add_spring("s", a="lower", b="world", stiffness=30)
+    both = ModelBuilder("two").add(other, "left_").add(other, "right_").build()
+    assert both.potential_energy(np.zeros(4)) == pytest.approx(2 * 15 * 0.8**2)
+    with pytest.raises(ModelError, match="have a link"):
+        ModelBuilder("two").add(other, "left_").add(other, "left_")
+    windy = arm().add_force("wind", lambda now: [0, 0])
+    with pytest.raises(ModelError, match='force "wind" of "arm" is a function of that model'):
+        ModelBuilder("two").add(windy, "left_")
+
+
+@pytest.mark.parametrize(
+    ("spring", "message"),
+    [
+        ({"a": "lowr", "b": "world"}, 'no link "lowr"; spring "s" asks for it; links are world'),
+        ({"a": "lower", "b": "world", "stiffness": -1}, "has stiffness -1; it is finite and at"),
+        ({"a": "lower", "b": "world", "damping": math.nan}, "has damping nan"),
+        ({"a": "lower", "b": "world", "length": math.inf}, "has length inf"),
+        ({"a": At("lower", (math.inf, 0, 0)), "b": "world"}, "that is not finite"),
+    ],
+)
+def test_wrong_springs_are_named(spring: dict, message: str) -> None:
+    builder = arm()
+    with pytest.raises(ModelError, match=message):
+        builder.add_spring("s", **spring)
+    builder.add_spring("s", a="lower", b="world")  # nothing was added
+    with pytest.raises(ModelError, match='two springs are named "s"'):
+        builder.add_spring("s", a="lower", b="world")
+
+
+def test_other_wrong_springs_are_named() -> None:
+    with pytest.raises(ModelError, match="which are one body: it would do nothing"):
+        arm().add_spring("s", a="lower", b=At("lower", (1, 0, 0)), stiffness=1).build()
+    for curve, message in [
+        (([0, 1], [0, 1, 2]), "of 2 displacements and 3 forces"),
+        (([0, 0], [0, 1]), "whose displacement 0 follows 0; they ascend"),
+        (([0, math.nan], [0, 1]), r"with \(nan, 1\) at 1"),
+        (([], []), "of no points"),
+    ]:
+        with pytest.raises(ModelError, match=message):
+            arm().add_joint_spring("elbow", curve=curve)
+    with pytest.raises(ModelError, match="slopes are of a curve"):
+        arm().add_joint_spring("elbow", stiffness=1, slopes=(0, 0))
+    with pytest.raises(ModelError, match="has gravity compensation nan"):
+        arm().set_gravity_compensation("lower", math.nan)
+
+
+def damped_by(function, **options) -> saltus.Model:
+    return arm().add_force("wind", function, **options).build()
+
+
+def test_a_force_of_the_user_is_that_of_damping() -> None:
+    real = arm().set_damping("elbow", 0.7).build()
+    full = damped_by(lambda now: ([-0.7 * now.v[1]], None, [[0, -0.7]]), coordinates=["elbow"])
+    bare = damped_by(lambda now: [0, -0.7 * now.v[1]])
+    runs = [saltus.simulate(m, q=[0.3, 0.2], duration=1.0, h=H) for m in (real, full, bare)]
+    for run in runs[1:]:
+        np.testing.assert_allclose(run.q, runs[0].q, atol=1e-12)
+        np.testing.assert_allclose(run.work["applied"], runs[0].work["damping"], atol=1e-12)
+    assert runs[0].energy_error == pytest.approx(runs[2].energy_error, rel=1e-6)
+
+
+def test_a_force_of_time_is_asked_in_the_middle_of_steps() -> None:
+    """Order 2 needs the middle: p' = sin t from rest, the midpoint rule's sum."""
+    builder = ModelBuilder("cart").set_gravity((0, 0, 0))
+    builder.add_body("cart", saltus.Sphere(0.1), mass=1.0, joint="prismatic")
+    model = builder.add_force("push", lambda now: [math.sin(now.t)]).build()
+    run = saltus.simulate(model, duration=1.0, h=H)
+    middles = np.sin((np.arange(100) + 0.5) * H).cumsum() * H
+    np.testing.assert_allclose(run.p[1:, 0], middles, atol=1e-14)
+
+
+class Storm(Exception):
+    """An exception of the user's own."""
+
+
+def test_an_exception_comes_through_and_leaves_the_state() -> None:
+    calm = [True]
+
+    def wind(now: saltus.ForceMoment) -> np.ndarray:
+        if not calm[0]:
+            raise Storm(f"at {now.t}")
+        return 0 * now.v
+
+    model = damped_by(wind)
+    stepper = saltus.Stepper(model, h=H)
+    state = stepper.advance(model.state([0.1, 0.2]))
+    before = pickle.dumps(state)
+    calm[0] = False
+    with pytest.raises(Storm, match=r"at 0.015"):
+        stepper.advance(state)
+    assert pickle.dumps(state) == before
+    calm[0] = True
+    expected = saltus.Stepper(model, h=H).advance(state)
+    np.testing.assert_allclose(stepper.advance(state).q, expected.q, atol=1e-15)
+    calm[0] = False
+    with pytest.raises(Storm):
+        saltus.simulate_batch(model, q=np.zeros((3, 2)), duration=0.1, h=H)
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [
+        (lambda now: [1.0], 'force "wind" returned Q of 1 numbers; it pushes 2 coordinates'),
+        (lambda now: [0, math.inf], r'force "wind" returned Q\[1\] = inf at t = 0.005 s'),
+        (lambda now: "gale", "returned 'gale' as Q, which are no numbers"),
+        (lambda now: None, "returned None as Q"),
+        (lambda now: (now.v, None), "returned a tuple of 2"),
+        (lambda now: (now.v, np.zeros((2, 3)), None), r"Q_q of shape \(2, 3\); it is \(2, 2\)"),
+        (lambda now: (now.v, None, [[0, 0], [0, math.nan]]), r"Q_v\[1, 1\] = nan"),
+        (lambda now: np.zeros((2, 2)), r"returned Q of shape \(2, 2\)"),
+    ],
+)
+def test_wrong_answers_are_named(answer, message: str) -> None:
+    model = damped_by(answer)
+    with pytest.raises(ModelError, match=message):
+        saltus.Stepper(model, h=H).advance(model.state())
+
+
+def test_wrong_forces_are_named() -> None:
+    with pytest.raises(
+        ModelError, match='pushes coordinate "knee", which does not exist; they are'
+    ):
+        damped_by(lambda now: [0], coordinates=["knee"])
+    with pytest.raises(ModelError, match='names coordinate "elbow" twice'):
+        damped_by(lambda now: [0, 0], coordinates=["elbow", "elbow"])
+    with pytest.raises(TypeError, match='function of force "wind" is 3'):
+        damped_by(3)
+    with pytest.raises(TypeError, match="its force 'wind' is a function"):
+        pickle.dumps(damped_by(lambda now: now.v))
+
+
+def well(stiffness: float = 5.0) -> dict:
+    return {
+        "value": lambda q: stiffness * math.cosh(q[1]),
+        "gradient": lambda q: [0, stiffness * math.sinh(q[1])],
+        "hessian": lambda q: [[0, 0], [0, stiffness * math.cosh(q[1])]],
+    }
+
+
+def test_a_potential_of_the_user_is_part_of_the_energy() -> None:
+    model = arm().add_potential("well", **well()).build()
+    saltus.check_derivatives("well", model)
+    L, plain = model.lagrangian([0.1, 0.4], [0, 0]), arm().build().lagrangian([0.1, 0.4], [0, 0])
+    assert L.value - plain.value == pytest.approx(-5 * math.cosh(0.4))
+    assert L.L_q[1] - plain.L_q[1] == pytest.approx(-5 * math.sinh(0.4))
+    assert L.L_qq[1, 1] - plain.L_qq[1, 1] == pytest.approx(-5 * math.cosh(0.4))
+    errors = []
+    for h in (0.01, 0.005):
+        run = saltus.simulate(model, q=[0.3, 0.5], duration=2.0, h=h)
+        errors.append(run.energy_error)
+    assert errors[0] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4, abs=0.3)
+    with pytest.raises(ModelError, match='third derivatives, which potential "well" does not give'):
+        saltus.Stepper(model, law="compensated")
+    with pytest.raises(TypeError, match="its potential 'well' is a function"):
+        pickle.dumps(model)
+
+
+def test_wrong_potentials_are_named() -> None:
+    functions = well()
+    for name, answer, message in [
+        ("value", lambda q: [1, 2], "returned 2 numbers as its value"),
+        ("gradient", lambda q: [0], "returned a gradient of 1 by 1 numbers; it is 2 by 1"),
+        ("hessian", lambda q: np.zeros((2, 3)), "returned a Hessian of 2 by 3 numbers"),
+        ("gradient", lambda q: [0, math.nan], "returned a gradient that is not finite"),
+    ]:
+        model = arm().add_potential("well", **(functions | {name: answer})).build()
+        with pytest.raises(ModelError, match=f'potential "well" {message}'):
+            model.lagrangian([0.1, 0.2], [0.0, 0.0])
+
+
+def test_derivatives_that_are_wrong_are_told_with_their_numbers() -> None:
+    model = arm().build()
+
+    def drag(now: saltus.ForceMoment, factor: float) -> tuple:
+        v = now.v[1]
+        return [0, -(v**2)], None, [[0, 0], [0, -factor * v]]
+
+    saltus.check_derivatives(lambda now: drag(now, 2), model)
+    message = r'force "function": Q_v\[1, 1\] is .*, and differences say .* with order'
+    with pytest.raises(ModelError, match=message):
+        saltus.check_derivatives(lambda now: drag(now, 1), model)
+    with pytest.raises(ModelError, match="returns Q alone"):
+        saltus.check_derivatives(lambda now: now.v, model)
+    with pytest.raises(ModelError, match='no force or potential "gust"; there are none'):
+        saltus.check_derivatives("gust", model)
+    wrong = well() | {"hessian": lambda q: [[0, 0], [0, 1]]}
+    with pytest.raises(ModelError, match=r'potential "well": Hessian\[1, 1\] is 1'):
+        saltus.check_derivatives("well", arm().add_potential("well", **wrong).build())
+    sloped = well() | {"gradient": lambda q: [0.5, 5 * math.sinh(q[1])]}
+    with pytest.raises(ModelError, match=r'potential "well": gradient\[0\] is 0.5'):
+        saltus.check_derivatives("well", arm().add_potential("well", **sloped).build())
+
+
+def test_springs_hold_where_a_body_rests_and_hits() -> None:
+    """A ball on a bungee over a floor: impacts and rest, with forces that depend on q."""
+    builder = ModelBuilder("bungee").add_floor(restitution=0.5, friction=0.4)
+    builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, X=Pose((0, 0, 1)))
+    builder.add_spring("s", a="ball", b=At("world", (0.5, 0, 2)), stiffness=8, length=1, damping=1)
+    run = saltus.simulate(builder.build(), duration=6.0, h=H)
+    assert run.complete
+    assert len(run.impacts) > 1
+    assert not len(run.fallbacks)
+    # 8 N/m lift a little of 9.81 N: it ends at rest on the floor, below the spring or near it
+    assert np.abs(run.v[-1]).max() < 0.05
+    assert run.q[-1, 2] == pytest.approx(-0.9, abs=1e-9)
