@@ -13,6 +13,9 @@ void check_no_functions(const ModelDescription& d) {
                          " is a function; build it where it is needed, or pickle a model without");
   };
   if (!d.forces.empty()) refuse("force '" + d.forces.front().name + "'");
+  for (const PrescribedSpec& spec : d.prescribed) {
+    if (spec.function) refuse("prescribed motion of '" + spec.joint + "'");
+  }
   if (!d.potentials.empty()) refuse("potential '" + d.potentials.front().name + "'");
 }
 

@@ -95,6 +95,21 @@ struct PlainFunction {
 template <>
 struct Plain<ForceSpec> : PlainFunction<ForceSpec> {};
 template <>
+struct Plain<std::function<PrescribedMotion(double)>> {  ///< true where there is one
+  using Function = std::function<PrescribedMotion(double)>;
+  static py::object to(const Function& x) { return py::bool_(static_cast<bool>(x)); }
+  static Function from(const Part& part) {
+    if (!part.value.cast<bool>()) return {};
+    part.refuse("was a function, which cannot be kept; build the model anew");
+  }
+};
+template <>
+struct Fields<PrescribedSpec> {
+  using T = PrescribedSpec;
+  static constexpr std::tuple all{Field{"joint", &T::joint}, Field{"times", &T::times},
+                                  Field{"values", &T::values}, Field{"function", &T::function}};
+};
+template <>
 struct Plain<PotentialFunction> : PlainFunction<PotentialFunction> {};
 template <>
 struct Fields<LoopSpec> {
@@ -221,6 +236,7 @@ struct Fields<ModelDescription> {
                                   Field{"potentials", &T::potentials},
                                   Field{"loops", &T::loops},
                                   Field{"couplings", &T::couplings},
+                                  Field{"prescribed", &T::prescribed},
                                   Field{"warnings", &T::warnings}};
 };
 

@@ -7,7 +7,7 @@ constexpr auto loop_type = R"(What a loop holds of its two ends, frames on two l
 
 `point`: their origins are one. `weld`: their axes as well. `distance`: their origins are a fixed
 distance apart. `on_plane`: the origin of a is on the plane through the origin of b that b's z axis
-is normal to. `coupling`: of two joints, see `add_coupling`.
+is normal to. `coupling`: of two joints, see `add_coupling`. `prescribed`: of one, see `set_prescribed`.
 )";
 
 constexpr auto at = R"(A frame on a link: where a spring or a loop is attached.
@@ -66,11 +66,36 @@ Returns
 ModelBuilder
 )";
 
+constexpr auto set_prescribed = R"(Makes a joint move as it is told, whatever that takes.
+
+The joint goes by a cubic spline through the values, whose ends are not bent and go on as lines, or
+by a function. Its arcs go by the secant of the motion, its rate at nodes is that of the motion.
+Impacts find it infinitely heavy. What moves it does work: part of `run.work["applied"]`. A run
+starts where the motion is: `close_loops(model, t=t)` gives that state. The joint is named "<joint>
+prescribed" where loops are listed.
+
+Parameters
+----------
+joint : str
+    Of one coordinate. What it moves may be without mass of its own.
+times, values : array_like, shape (k,), optional
+    [s] ascending, [rad | m]; k is 2 at least.
+function : callable, optional
+    function(t) returns the displacement [rad | m] and its rate. A model that has one cannot be
+    pickled, and files do not hold it.
+
+Returns
+-------
+ModelBuilder
+)";
+
 constexpr auto loop_gaps = R"(How far each loop is open.
 
 Parameters
 ----------
 q : array_like, shape (n_q,), or mapping
+t : float
+    [s] of prescribed motions.
 
 Returns
 -------
@@ -93,7 +118,7 @@ v : array_like, shape (n_v,), or mapping, optional
 keep : list of str
     Joints, or velocities, that stay exactly as they are in q and v.
 t : float
-    [s] of the state.
+    [s] of the state, and of prescribed motions.
 
 Returns
 -------

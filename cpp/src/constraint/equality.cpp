@@ -119,6 +119,8 @@ std::string loop_type_name(LoopType type) {
       return "on_plane";
     case LoopType::coupling:
       return "coupling";
+    case LoopType::prescribed:
+      return "prescribed";
   }
   return "";
 }
@@ -131,6 +133,7 @@ int rows_of(LoopType type) {
 EqualityValues::EqualityValues(int n_v, int rows) {
   h.setZero(rows);
   size.setZero(rows);
+  drive.setZero(rows);
   A.setZero(n_v, rows);
 }
 
@@ -145,13 +148,20 @@ std::vector<int> joints_read(const Tree& tree, const EqualityModel& model) {
 }
 
 void set_equalities(const Tree& tree, const EqualityModel& model, const Kinematics& kin,
-                    const VecRef& q, EqualityValues& out) {
+                    const VecRef& q, double t, EqualityValues& out) {
   out.A.setZero();
   out.size.setZero();
   for (const Equality& e : model.all) {
+    RowWriter writer{tree, kin, out.A.col(e.first)};
     if (e.type == LoopType::coupling) {
-      RowWriter writer{tree, kin, out.A.col(e.first)};
       set_coupling(tree, e, q, writer, out.h[e.first], out.size[e.first]);
+    } else if (e.type == LoopType::prescribed) {
+      const PrescribedMotion told = e.motion(t);
+      const double x = displacement(tree, e.a.joint, q);
+      out.h[e.first] = x - told.x;
+      out.size[e.first] = std::abs(x) + std::abs(told.x) + 1;  // a metre or radian is no rounding
+      out.drive[e.first] = told.rate;
+      writer.add(e.a.joint, 1);
     } else {
       set_ends(tree, kin, e, out);
     }

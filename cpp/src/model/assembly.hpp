@@ -96,6 +96,7 @@ class Assembly {
 
   // loops.cpp
   void add_loops();
+  int moved_frame(const std::string& joint, const std::string& user) const;
   Equality::End end_of(const At& at, const std::string& loop) const;
 
   // filter.cpp

@@ -11,11 +11,11 @@
 namespace saltus {
 namespace {
 
-EqualityValues values_at(const ModelData& model, const VecRef& q) {
+EqualityValues values_at(const ModelData& model, const VecRef& q, double t) {
   Kinematics kin(model.tree);
   set_configuration(model.tree, q, kin);
   EqualityValues out(model.tree.n_v, model.equalities.rows);
-  set_equalities(model.tree, model.equalities, kin, q, out);
+  set_equalities(model.tree, model.equalities, kin, q, t, out);
   return out;
 }
 
@@ -88,14 +88,15 @@ const Equality& equality_of(const ModelData& model, int row) {
   return *found;
 }
 
-VecX loop_gaps(const Model& model, const VecRef& q) {
-  return values_at(*model, model.checked_q(q, "q")).h;
+VecX loop_gaps(const Model& model, const VecRef& q, double t) {
+  return values_at(*model, model.checked_q(q, "q"), t).h;
 }
 
-VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<int>& keep) {
+VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<int>& keep,
+                 double t) {
   check_kept(model, keep);
   VecX q = model.checked_q(q_start, "q");
-  EqualityValues values = values_at(*model, q);
+  EqualityValues values = values_at(*model, q, t);
   constexpr int most_iterations = 100, most_halvings = 30;
   constexpr double rounding = 1e-14;
   double open = openness(values);
@@ -105,30 +106,31 @@ VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<in
     VecX q_new;
     for (int halving = 0; halving < most_halvings && !(after < open); ++halving, dq /= 2) {
       q_new = model.integrate(q, dq);
-      values = values_at(*model, q_new);
+      values = values_at(*model, q_new, t);
       after = openness(values);
     }
     if (!(after < open)) break;
     q = q_new;
     open = after;
   }
-  values = values_at(*model, q);
+  values = values_at(*model, q, t);
   // what is left of Newton's method at rounding, or a loop that does not close
   if (!(open <= 1e-12)) fail_open(model, values);
   return q;
 }
 
 VecX consistent_velocity(const Model& model, const VecRef& q, const VecRef& v,
-                         const std::vector<int>& keep) {
+                         const std::vector<int>& keep, double t) {
   check_kept(model, keep);
   check_vector(v, model.n_v(), "v", "velocities");
   const VecX at = model.checked_q(q, "q");
-  const EqualityValues values = values_at(*model, at);
+  const EqualityValues values = values_at(*model, at, t);
   const Steps steps(*model, at, values.A, keep);
-  const VecX rates = values.A.transpose() * v;
+  const VecX rates = values.A.transpose() * v - values.drive;
   const VecX out = v + steps.step(with_zeros(-rates, keep.size()));
-  const VecX left = values.A.transpose() * out;
-  const VecX size = values.A.cwiseAbs().transpose() * (out.cwiseAbs() + v.cwiseAbs());
+  const VecX left = values.A.transpose() * out - values.drive;
+  const VecX size =
+      values.A.cwiseAbs().transpose() * (out.cwiseAbs() + v.cwiseAbs()) + values.drive.cwiseAbs();
   for (int row = 0; row < model->equalities.rows; ++row) {
     if (std::abs(left[row]) <= 1e-10 * size[row]) continue;
     const Equality& loop = equality_of(*model, row);

@@ -23,6 +23,7 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   for (const CouplingSpec& coupling : d.couplings) {
     again.add_coupling(coupling.joint, coupling.of, coupling.polynomial);
   }
+  for (const PrescribedSpec& spec : d.prescribed) again.set_prescribed(spec);
   for (const SpringSpec& spring : d.springs) again.add_spring(spring);
   for (const ForceSpec& force : d.forces) again.add_force(force);
   for (const PotentialFunction& potential : d.potentials) again.add_potential(potential);

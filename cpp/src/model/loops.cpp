@@ -5,6 +5,7 @@
 
 #include "model/assembly.hpp"
 #include "model/shape_checks.hpp"
+#include "saltus/lagrangian/curve.hpp"
 
 namespace saltus {
 namespace {
@@ -71,6 +72,51 @@ ModelBuilder& ModelBuilder::add_coupling(const std::string& joint, const std::st
   return *this;
 }
 
+namespace {
+
+void check_prescribed(const PrescribedSpec& spec) {
+  const auto wrong = [&](const std::string& what) {
+    throw ModelError("the prescribed motion of joint " + quoted(spec.joint) + " " + what, "joint",
+                     spec.joint);
+  };
+  if (spec.function) return;
+  if (spec.times.size() != spec.values.size() || spec.times.size() < 2) {
+    wrong("has " + std::to_string(spec.times.size()) + " times and " +
+          std::to_string(spec.values.size()) + " values; it has equally many, two at least");
+  }
+  for (std::size_t k = 0; k < spec.times.size(); ++k) {
+    if (!std::isfinite(spec.times[k]) || !std::isfinite(spec.values[k])) {
+      wrong("has a time or value " + std::to_string(k) + " that is not finite");
+    }
+    if (k > 0 && !(spec.times[k] > spec.times[k - 1])) {
+      wrong("has time " + std::to_string(k) + " that is not after the one before");
+    }
+  }
+}
+
+}  // namespace
+
+ModelBuilder& ModelBuilder::set_prescribed(const std::string& joint, std::vector<double> times,
+                                           std::vector<double> values) {
+  return set_prescribed(PrescribedSpec{joint, std::move(times), std::move(values)});
+}
+
+ModelBuilder& ModelBuilder::set_prescribed(const std::string& joint,
+                                           std::function<PrescribedMotion(double)> function) {
+  return set_prescribed(PrescribedSpec{joint, {}, {}, std::move(function)});
+}
+
+ModelBuilder& ModelBuilder::set_prescribed(const PrescribedSpec& spec) {
+  check_prescribed(spec);
+  for (const PrescribedSpec& other : d_.prescribed) {
+    if (other.joint != spec.joint) continue;
+    throw ModelError("joint " + quoted(spec.joint) + " has two prescribed motions", "joint",
+                     spec.joint);
+  }
+  d_.prescribed.push_back(spec);
+  return *this;
+}
+
 Equality::End Assembly::end_of(const At& at, const std::string& loop) const {
   const int link = link_index(at.link, "loop " + quoted(loop) + " holds", "loop", loop);
   const Place& place = place_[static_cast<std::size_t>(link)];
@@ -94,29 +140,39 @@ void Assembly::add_loops() {
   }
   for (const CouplingSpec& coupling : d_.couplings) {
     const std::string user = "a coupling moves";
-    const int driven = joint_index(coupling.joint, user), by = joint_index(coupling.of, user);
-    for (const int joint : {driven, by}) {
-      const std::string& name = d_.joints[static_cast<std::size_t>(joint)].name;
-      if (has_one_coordinate(d_.joints[static_cast<std::size_t>(joint)].type)) continue;
-      throw ModelError("a coupling moves joint " + quoted(name) + ", which has not one coordinate",
-                       "joint", name);
-    }
-    if (base_[driven] == base_[by]) {
+    const int driven = moved_frame(coupling.joint, user), by = moved_frame(coupling.of, user);
+    if (base_[joint_.at(coupling.joint)] == base_[joint_.at(coupling.of)]) {
       throw ModelError("a coupling ties joint " + quoted(coupling.joint) + " to joint " +
                            quoted(coupling.of) + "; one of them mimics the other already",
                        "joint", coupling.joint);
     }
-    const auto frame = [&](int joint) {
-      const std::string& name = d_.joints[static_cast<std::size_t>(joint)].name;
-      return named(m_.joints, "joint", name).frames.front();
-    };
-    add({coupling_name(coupling.joint),
-         LoopType::coupling,
-         {frame(driven), {}},
-         {frame(by), {}},
-         0,
-         coupling.polynomial});
+    Equality tie{coupling_name(coupling.joint), LoopType::coupling, {driven, {}}, {by, {}}};
+    tie.polynomial = coupling.polynomial;
+    add(tie);
   }
+  for (const PrescribedSpec& spec : d_.prescribed) {
+    Equality told{spec.joint + " prescribed",
+                  LoopType::prescribed,
+                  {moved_frame(spec.joint, "set_prescribed moves"), {}}};
+    told.motion = spec.function;
+    if (!told.motion) {
+      told.motion = [curve = make_curve(spec.times, spec.values)](double t) {
+        const CurveValue at = curve(t);
+        return PrescribedMotion{at.f, at.slope};
+      };
+    }
+    add(told);
+  }
+}
+
+/// The frame that a joint of one coordinate moves.
+int Assembly::moved_frame(const std::string& joint, const std::string& user) const {
+  const JointSpec& spec = d_.joints[static_cast<std::size_t>(joint_index(joint, user))];
+  if (has_one_coordinate(spec.type)) {
+    return named(m_.joints, "joint", spec.name).frames.front();
+  }
+  throw ModelError(user + " joint " + quoted(joint) + ", which has not one coordinate", "joint",
+                   joint);
 }
 
 }  // namespace saltus

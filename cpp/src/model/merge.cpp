@@ -204,6 +204,7 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.actuators, d.actuators);
   append(other.loops, d.loops);
   append(other.couplings, d.couplings);
+  append(other.prescribed, d.prescribed);
   append(other.states, d.states);
   append(other.sensors, d.sensors);
   append(other.springs, d.springs);

@@ -64,6 +64,7 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
     for (std::string* name : {&loop.name, &loop.a.link, &loop.b.link}) rename(*name);
   }
   for (CouplingSpec& coupling : d.couplings) rename(coupling.joint), rename(coupling.of);
+  for (PrescribedSpec& spec : d.prescribed) rename(spec.joint);
   for (StateSpec& state : d.states) {
     rename(state.name);
     state.q = prefixed(state.q, prefix);

@@ -201,8 +201,7 @@ def _model(
     if GROUP in file:
         description = read_description(file)
         if given is None:
-            has_functions = description.get("forces") or description.get("potentials")
-            return None if has_functions else read_model(file, description)
+            return None if _has_functions(description) else read_model(file, description)
         found = difference(description, given._description())
         if found:
             raise ModelError(f"the model is not that of the run in {file.path}: {found}")
@@ -214,6 +213,12 @@ def _model(
         model = model.without_collisions()
     check_model(model, coordinates, pairs, file.path)
     return model
+
+
+def _has_functions(description: dict[str, Any]) -> bool:
+    """Return whether a part of the model was a function, which a file cannot hold."""
+    told = [spec.get("function") for spec in description.get("prescribed", [])]
+    return bool(description.get("forces") or description.get("potentials") or any(told))
 
 
 def _step_options(file: Stored) -> StepOptions:

@@ -133,6 +133,7 @@ struct ModelDescription {
   std::vector<ActuatorSpec> actuators;
   std::vector<LoopSpec> loops;
   std::vector<CouplingSpec> couplings;
+  std::vector<PrescribedSpec> prescribed;
   std::vector<SpringSpec> springs;
   std::vector<ForceSpec> forces;
   std::vector<PotentialFunction> potentials;

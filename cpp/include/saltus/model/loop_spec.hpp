@@ -22,4 +22,12 @@ struct CouplingSpec {
   std::vector<double> polynomial;  ///< by rising powers
 };
 
+/// A joint of one coordinate that moves as it is told: by a cubic spline through values at times,
+/// or by a function.
+struct PrescribedSpec {
+  std::string joint;
+  std::vector<double> times, values;  ///< [s], [rad | m]
+  std::function<PrescribedMotion(double t)> function = {};
+};
+
 }  // namespace saltus

@@ -128,6 +128,14 @@ class SALTUS_EXPORT ModelBuilder {
   /// that mimics another is the same of degree 1, and has no coordinate.
   ModelBuilder& add_coupling(const std::string& joint, const std::string& of,
                              const std::vector<double>& polynomial);
+  /// The joint moves by a cubic spline (ends are not bent, a line goes on beyond) through `values`
+  /// [rad | m] at `times` [s], whatever that takes.
+  ModelBuilder& set_prescribed(const std::string& joint, std::vector<double> times,
+                               std::vector<double> values);
+  /// The same by a function of time. A model that has one cannot be sent elsewhere.
+  ModelBuilder& set_prescribed(const std::string& joint,
+                               std::function<PrescribedMotion(double t)> function);
+  ModelBuilder& set_prescribed(const PrescribedSpec& spec);
 
   /// A spring that resists with `f` at the displacements `x` [rad | m], ascending, and with a cubic
   /// spline between; V is its integral from the first. Ends are natural, or have these slopes.

@@ -27,6 +27,7 @@ ArcLoops::ArcLoops(const ModelData& model)
     : end(model.tree.n_v, model.equalities.rows),
       solver(model.tree.n_v, model.equalities.rows),
       joints(joints_read(model.tree, model.equalities)) {
+  set_locks(model, solver);
   for (VecX* x : {&mu, &dmu, &rate}) x->setZero(model.equalities.rows);
   for (VecX* x : {&push, &size}) x->setZero(model.tree.n_v);
 }
@@ -50,13 +51,14 @@ double loop_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
   for (const int joint : loops.joints) {
     copy_pose(model.tree, model.packed, s.w_end, joint, s.kin_end);
   }
-  set_equalities(model.tree, model.equalities, s.kin_end, s.q, loops.end);
+  set_equalities(model.tree, model.equalities, s.kin_end, s.q, a.t + a.tau, loops.end);
   constexpr double tiny = 1e-300;
   if (a.tau > 0) {
     loops.rate = -loops.end.h / a.tau;
     return (loops.end.h.array().abs() / (loops.end.size.array() + tiny)).maxCoeff();
   }
-  loops.rate.noalias() = -loops.end.A.transpose() * v;
+  loops.rate = loops.end.drive;
+  loops.rate.noalias() -= loops.end.A.transpose() * v;
   const double size = v.norm() * loops.end.A.norm() + tiny;
   return loops.rate.cwiseAbs().maxCoeff() / size;
 }
@@ -64,6 +66,7 @@ double loop_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
 bool take_out_loops(const ModelData& model, const ArcProblem& a, ArcScratch& s) {
   ArcLoops& loops = *a.loops;
   if (!set_solver(model, a.tau, s)) return false;
+  // J dv = r + A dmu; the lock is on J, and meets the change of the rates alone
   loops.solver.meet(loops.rate, s.dv);
   loops.dmu = loops.solver.mu;
   loops.mu += loops.dmu;
@@ -80,8 +83,10 @@ void halve_step(ArcScratch& s) {
 void hold_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate) {
   ArcLoops& loops = *s.loops;
   if (!set_solver(model, arc.tau, s)) return;
-  loops.rate.noalias() = -loops.solver.C.transpose() * arc.v;
-  if (arc.tau > 0) loops.rate /= arc.tau;
+  if (!(arc.tau > 0)) return;
+  loops.rate = loops.end.drive;
+  loops.rate.noalias() -= loops.solver.C.transpose() * arc.v;
+  loops.rate /= arc.tau;
   loops.solver.meet(loops.rate, rate);
 }
 

@@ -2,7 +2,7 @@
 //
 // Theory, F6, as RATTLE has it:
 //
-//   p_start = p + A(q) mu        h(q (+) tau v) / tau = 0        (tau = 0: A^T v = 0)
+//   p_start = p + A(q) mu        h(q (+) tau v, t + tau) / tau = 0   (tau = 0: A^T v = drive)
 //
 // Newton's method takes them out of the arc's linear system, J dv - A dmu = r, C^T dv = -h / tau,
 // with C = K^T A(q_end) (packed_matrix.hpp). The closing half kick is the node's (equalities.hpp).

@@ -13,7 +13,7 @@ constexpr double independent = 1e-8, redundant = 1e-11;
 EqualitySolver::EqualitySolver(int n_v, int rows)
     : lu_(rows, rows), svd_(rows, rows, Eigen::ComputeFullU | Eigen::ComputeFullV) {
   for (Columns* each : {&C, &Y}) each->setZero(n_v, rows);
-  for (VecX* each : {&mu, &scale_, &none_, &y_}) each->setZero(rows);
+  for (VecX* each : {&mu, &lock, &scale_, &none_, &y_}) each->setZero(rows);
   S_.setZero(rows, rows);
 }
 
@@ -73,6 +73,7 @@ void EqualitySolver::meet(const VecX& g, VecX& x) {
   solve();
   mu.array() *= scale_.array();
   x.noalias() += Y * mu;
+  mu.array() -= lock.array() * g.array();
 }
 
 void EqualitySolver::hold(VecX& x) { meet(none_, x); }

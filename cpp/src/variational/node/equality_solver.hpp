@@ -20,6 +20,9 @@ struct EqualitySolver {
   EqualitySolver() = default;
   EqualitySolver(int n_v, int rows);
 
+  /// (m) What has been added to J along A A^T, of a row that J may be singular without: it changes
+  /// multipliers alone.
+  VecX lock;
   Columns C, Y;       ///< (n_v, m) written by who uses it
   VecX mu;            ///< (m) of the last `meet`
   int weak_row = -1;  ///< of a rank that changes, where factorize failed; else -1

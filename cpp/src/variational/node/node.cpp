@@ -25,6 +25,7 @@ Node::Node(const Scene& scene, PairPool& pairs)
   const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
   add_dry_joints(scene, *this);
+  M.lock = locks_of(scene.model);
 }
 
 void add_dry_joints(const Scene& scene, Node& node) {

@@ -140,7 +140,9 @@ bool step_out(const Model& model, const NearPairs& near, VecX& q) {
   const Eigen::LLT<Eigen::MatrixXd> M(model.mass_matrix(q));
   MatX columns = M.solve(phi_q.transpose());
   for (Eigen::Index k = 0; k < columns.cols() && model->equalities.rows > 0; ++k) {
-    columns.col(k) = consistent_velocity(model, q, columns.col(k));
+    // of a motion that is told only what is added to it
+    columns.col(k) = consistent_velocity(model, q, columns.col(k)) -
+                     consistent_velocity(model, q, VecX::Zero(model.n_v()));
   }
   MatX G = phi_q * columns;
   // where there is no way out the multipliers stay finite

@@ -102,7 +102,9 @@ void Stepper::Impl::check_loops() {
   for (int k = 0; k < loops.values.h.size(); ++k) {
     const double h = std::abs(loops.values.h[k]), rate = std::abs(loops.rate[k]);
     if (!(h <= rounding * loops.values.size[k])) tell(k, "is open by ", h, "");
-    if (!(rate <= rounding * loops.rate_size[k])) tell(k, "opens at a rate of ", rate, " a second");
+    const bool is_told = equality_of(scene.model, k).type == LoopType::prescribed;
+    if (!is_told && !(rate <= rounding * loops.rate_size[k]))
+      tell(k, "opens at a rate of ", rate, " a second");
   }
   const std::string weak = weak_loop();
   if (!weak.empty()) throw ModelError("the start is no good one" + weak + "; start beside it");

@@ -55,11 +55,11 @@ std::string Stepper::Impl::fast_joint() const {
 namespace {
 
 /// Independent rows of the loops at q; the last that depends on others in `weak`.
-Eigen::Index rank_of_loops(const ModelData& model, const VecX& q, int& weak) {
+Eigen::Index rank_of_loops(const ModelData& model, const VecX& q, double t, int& weak) {
   Kinematics kin(model.tree);
   set_configuration(model.tree, q, kin);
   EqualityValues values(model.tree.n_v, model.equalities.rows);
-  set_equalities(model.tree, model.equalities, kin, q, values);
+  set_equalities(model.tree, model.equalities, kin, q, t, values);
   Eigen::ColPivHouseholderQR<MatX> qr(model.tree.n_v, model.equalities.rows);
   qr.setThreshold(1e-6);
   qr.compute(values.A);
@@ -77,7 +77,9 @@ std::string Stepper::Impl::weak_loop() const {
   for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = 1e-2 * (1 + 0.1 * double(i % 7));
   integrate(model.tree, node.q, 1, step, q);
   int weak = -1, other = -1;
-  if (rank_of_loops(model, node.q, weak) >= rank_of_loops(model, q, other)) return {};
+  if (rank_of_loops(model, node.q, node.t, weak) >= rank_of_loops(model, q, node.t, other)) {
+    return {};
+  }
   return "; loop \"" + equality_of(model, weak).name +
          "\" is where two motions branch: its rows depend on each other here, and nothing says "
          "which is the motion";

@@ -214,7 +214,10 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
   if (outcome != FlightOutcome::arrived) fail(outcome);
   add_work();
   add_dry_work();
-  if (work.scratch.loops) report.loops += work.scratch.loops->mu;
+  if (work.scratch.loops) {
+    report.loops += work.scratch.loops->mu;
+    add_loop_work(work.scratch.loops->mu);
+  }
   if (launch == nullptr) check_free_energy();
   note_start();
   ++report.arcs;
@@ -229,7 +232,10 @@ void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
   tell_half_kick(kick, report);
-  if (node.loops.some) report.loops += node.loops.impulse;
+  if (node.loops.some) {
+    report.loops += node.loops.impulse;
+    add_loop_work(node.loops.impulse);
+  }
   report.work[scene.model.forces.n_u() + 1] += kick.dry_work;
   check_energy();
   check_gaps();
@@ -241,7 +247,10 @@ void Stepper::Impl::end_arc(double t) {
 const Launch* Stepper::Impl::collide() {
   if (static_cast<int>(report.impacts.size()) >= most_impacts()) fail_impacts();
   const Launch* launch = nullptr;
-  if (!resolve_impact_at(scene, conserved_energy(), node, impact, report, launch)) fail_jammed();
+  const double energy_before = conserved_energy();
+  node.loops.impulse.setZero();
+  if (!resolve_impact_at(scene, energy_before, node, impact, report, launch)) fail_jammed();
+  if (node.loops.some) add_loop_work(node.loops.impulse);
   forget_velocities(memory);
   return launch;
 }

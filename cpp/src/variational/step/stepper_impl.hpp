@@ -39,6 +39,7 @@ struct Stepper::Impl {
   void add_work();                    // likewise
   void add_work(double tau, const VecX& v, const ForceValues& forces, const VecX& wrench_force);
   void add_dry_work();  // likewise
+  void add_loop_work(const VecX& impulse);
   void step_once(State& state, bool is_own);
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
