@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "saltus/export.hpp"
 #include "saltus/spatial/spatial.hpp"
 
 namespace saltus {
