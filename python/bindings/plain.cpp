@@ -8,10 +8,15 @@
 
 namespace saltus::bindings {
 
-void Part::refuse(const std::string& what) const { throw ModelError(path + " " + what); }
+void Part::refuse(const std::string& what) const {
+  throw ModelError((path.empty() ? "the description" : path) + " " + what);
+}
 
 void Part::refuse_kind(const std::string& wanted) const {
-  auto text = py::repr(value).cast<std::string>();
+  const bool is_array = py::isinstance<py::array>(value);
+  auto text = is_array ? "an array of " + py::str(value.attr("dtype")).cast<std::string>() +
+                             ", shape " + py::str(value.attr("shape")).cast<std::string>()
+                       : py::repr(value).cast<std::string>();
   if (text.size() > 60) text = text.substr(0, 60) + " ...";
   refuse("is " + text + "; it is " + wanted);
 }
@@ -178,6 +183,19 @@ std::vector<Hull::Face> faces_of(const Part& part) {
   return faces;
 }
 
+/// Whether the corners of each face lie in its plane; indices are checked before.
+bool is_closed(const Hull& hull) {
+  double size = 0;
+  for (const Vec3& x : hull.vertices) size = std::max(size, x.cwiseAbs().maxCoeff());
+  for (const Hull::Face& face : hull.faces) {
+    for (const int corner : face.corners) {
+      const double off = face.normal.dot(hull.vertices[static_cast<std::size_t>(corner)]);
+      if (!(std::abs(off - face.offset) <= 1e-6 * size)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 void Plain<Convex>::write(const Convex& x, py::dict& out) {
@@ -223,6 +241,7 @@ void Plain<Convex>::read(const Part& part, Convex& x, std::size_t others) {
   } catch (const ModelError&) {
     part.refuse("is a convex whose parts do not fit together");
   }
+  if (!is_closed(*x.hull)) part.refuse("is a convex whose corners are not on its faces");
 }
 
 void Plain<TriangleMesh>::write(const TriangleMesh& x, py::dict& out) {

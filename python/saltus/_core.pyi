@@ -55,6 +55,8 @@ __all__: list[str] = [
     "Pair",
     "PlacedShape",
     "Pose",
+    "Sensor",
+    "SensorKind",
     "Sphere",
     "State",
     "StepError",
@@ -1074,6 +1076,69 @@ class Visual:
         a TriangleMesh, or one of the classes of `Shape`
         """
 
+class SensorKind(enum.Enum):
+    """
+    What a sensor measures; names are MuJoCo's where it has one.
+
+    jointpos, jointvel
+        [rad | m], [rad/s | m/s] of a joint: one number, or all of a joint of several.
+    actuatorfrc
+        [N m | N] what an actuator pushes with, after its limits.
+    framepos, framequat
+        [m] where a point of a link is, in the world; how its frame is turned, x y z w.
+    framelinvel, frameangvel
+        [m/s], [rad/s] of that frame, in the world's axes.
+    velocimeter, gyro
+        The same in the frame's own axes.
+    accelerometer
+        [m/s^2] acceleration of the point less gravity, in the frame's own axes.
+    touch
+        [N] sum of the normal forces on a link.
+    contactforce
+        [N] sum of the contact forces on a link, friction included, in the world's axes.
+    """
+
+    accelerometer = ...
+    actuatorfrc = ...
+    contactforce = ...
+    frameangvel = ...
+    framelinvel = ...
+    framepos = ...
+    framequat = ...
+    gyro = ...
+    jointpos = ...
+    jointvel = ...
+    touch = ...
+    velocimeter = ...
+
+class Sensor:
+    """
+    What a model measures by name; made by `ModelBuilder.add_sensor`.
+    """
+    def __getstate__(self) -> tuple: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def X(self) -> Pose:
+        """
+        Pose in the link's frame
+        """
+    @property
+    def kind(self) -> SensorKind: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def of(self) -> str:
+        """
+        the joint, the actuator, or the link that carries it
+        """
+    @property
+    def other(self) -> str:
+        """
+        whose contacts count, "": all
+        """
+
 class Model:
     """
     A tree of rigid bodies: frozen, checked, cheap to copy.
@@ -1084,16 +1149,26 @@ class Model:
     joint with several numbers stands for all of them: `q={"base": Pose(...)}`, or a position and a
     quaternion, or a SciPy Rotation; `v={"base": ((1, 0, 0), (0, 0, 5))}`.
     """
+    @staticmethod
+    def _of_description(
+        description: dict,
+        *,
+        collisions: bool = True,
+        version: typing.SupportsInt | typing.SupportsIndex = 1,
+    ) -> Model:
+        """
+        The model of `_description`; ModelError with the place of what is wrong in it.
+        """
     def __copy__(self) -> Model: ...
     def __deepcopy__(self, memo: typing.Any) -> Model: ...
-    def __getstate__(self) -> tuple[tuple, bool]: ...
+    def __getstate__(self) -> tuple: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
-    def _moving_parts(self) -> tuple:
+    def _description(self) -> dict:
         """
-        Links, joints and actuators as the model was built of them, to compare models by.
+        All that the model is built of, as plain data: dicts by name, lists, numbers, arrays.
         """
     def _repr_html_(self) -> str: ...
     def accelerations(
@@ -1132,6 +1207,33 @@ class Model:
             On an unknown name, a wrong shape, or a value that is not finite.
         StepError
             Where the mass matrix is singular.
+        """
+    def actuator_forces(
+        self,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        What actuators push with, after their limits and the joints'.
+
+        Parameters
+        ----------
+        q : array_like, shape (rows, n_q)
+            [rad | m]
+        v : array_like, shape (rows, n_v)
+            [rad/s | m/s]
+        control : array_like, shape (rows, n_u)
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows, n_u)
+            [N m | N] of each actuator, before its gear.
+
+        Raises
+        ------
+        ModelError
+            On shapes that do not fit.
         """
     def all_poses(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -1602,10 +1704,12 @@ class Model:
 
         Parameters
         ----------
-        q : array_like, shape (n_q,), or mapping of names to values
-            [rad | m]; coordinates that are not named are as in `neutral`.
+        q : array_like, shape (n_q,), or mapping of names to values, or str
+            [rad | m]; coordinates that are not named are as in `neutral`. The name of a state that the
+            model has, `state_names`, stands for its coordinates, here and in all functions that take q.
         v : array_like, shape (n_v,), or mapping of names to values
-            [rad/s | m/s]; of free and ball joints in the parent's axes.
+            [rad/s | m/s]; of free and ball joints in the parent's axes. None: 0, or those of the named
+            state.
         t : float
             [s]
 
@@ -1753,6 +1857,13 @@ class Model:
         a list of the pairs; at most 10^6 of them
         """
     @property
+    def sensor_names(self) -> list[str]: ...
+    @property
+    def sensors(self) -> list[Sensor]:
+        """
+        what it measures by name, see `ModelBuilder.add_sensor`
+        """
+    @property
     def shapes(self) -> list[PlacedShape]: ...
     @property
     def solvers(self) -> list[TreeSolution]:
@@ -1763,6 +1874,11 @@ class Model:
     def source(self) -> str:
         """
         the URDF text it was read from, "" for a model built in code
+        """
+    @property
+    def state_names(self) -> list[str]:
+        """
+        of states that `state` gives by name, see `ModelBuilder.add_state`
         """
     @property
     def velocity_names(self) -> list[str]: ...
@@ -2168,6 +2284,56 @@ class ModelBuilder:
         ModelError
             As `add_motor`.
         """
+    def add_sensor(
+        self,
+        name: str,
+        kind: SensorKind | str,
+        *,
+        joint: str | None = None,
+        actuator: str | None = None,
+        link: str | None = None,
+        other: str | None = None,
+        X: Pose = ...,
+    ) -> ModelBuilder:
+        """
+        Adds a sensor: `run.sensor(name)` reads it from recorded rows.
+
+        It has no part in the motion. A policy has it as `now.sensors[name]`.
+
+        Parameters
+        ----------
+        name : str
+        kind : SensorKind or str
+        joint : str, optional
+            Of jointpos and jointvel.
+        actuator : str, optional
+            Of actuatorfrc.
+        link : str, optional
+            Of all others: the link that carries it.
+        other : str, optional
+            Of touch and contactforce: the link or half-space whose contacts count; None: all.
+        X : Pose
+            Where on the link it is, and how it is turned; of touch and contactforce it has no meaning.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, and on what it is of where that does not exist or is of another kind.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.ModelBuilder()
+        >>> builder = builder.add_body("stone", saltus.Sphere(0.1), mass=1.0)
+        >>> model = builder.add_sensor("imu", "accelerometer", link="stone").build()
+        >>> model.sensors
+        [Sensor('imu', accelerometer of link 'stone')]
+        """
     def add_shape(
         self,
         link: str,
@@ -2190,6 +2356,45 @@ class ModelBuilder:
         ------
         ModelError
             On sizes that are not finite and positive, and on a half-space of a link other than the root.
+        """
+    def add_state(
+        self,
+        name: str,
+        q: collections.abc.Mapping[str, typing.Any] | None = None,
+        v: collections.abc.Mapping[str, typing.Any] | None = None,
+    ) -> ModelBuilder:
+        """
+        Adds a state by name, as MuJoCo's keyframes and SRDF's group states.
+
+        `model.state("home")` gives it, and wherever a function takes `q` it takes the name.
+
+        Parameters
+        ----------
+        name : str
+        q : mapping of joints' names to values, optional
+            [rad | m] one number, or for joints of several a sequence or a Pose. Other joints are as in
+            `Model.neutral`.
+        v : mapping of joints' names to values, optional
+            [rad/s | m/s] 0 of other joints.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, joints that do not exist, are fixed or mimic others, values that are
+            not finite, too many, or outside of limits that act.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.read_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> model = builder.add_state("lifted", q={"swing_0": 0.3}).build()
+        >>> float(model.state("lifted").q[0])
+        0.3
         """
     def add_velocity_servo(
         self,
@@ -3774,7 +3979,7 @@ def read_urdf(
     meshes : MeshUse or str
         What becomes of collision meshes, where the file does not say it.
     srdf : str or os.PathLike, optional
-        SRDF, a file or text: which links never collide.
+        SRDF, a file or text: which links never collide, and states by name.
     contact : ContactProperties, optional
         The default contact, in place of the file's own.
     floor : bool
@@ -4166,4 +4371,5 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
         On a `HalfSpace`, which is infinite, and on a size that is not finite and positive.
     """
 
+_DESCRIPTION_VERSION: int = 1
 __version__: str = "0.1.0"

@@ -107,7 +107,10 @@ RUINED = [
         at("shapes", 5, "shape", "vertices", "array", value="../t"),
         r"description/arrays|vertices is",
     ),
-    (at("shapes", 5, "shape", "edges", "array", value=0), r"edges is .*; it is an array of whole"),
+    (
+        at("shapes", 5, "shape", "edges", "array", value=0),
+        r"edges is an array of float64, shape .*; it is",
+    ),
     (
         at("materials", "of_link", value=[["a", "b"], ["a", "c"]]),
         "materials.of_link has an entry tw",

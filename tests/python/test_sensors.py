@@ -256,7 +256,8 @@ def test_sensors_that_none_are(arguments, words):
 
 
 def test_sensors_of_what_is_added_get_its_prefix():
-    whole = saltus.ModelBuilder().add_floor("ground").add(sliding().builder(), "p_").build()
+    up = saltus.Pose((0, 0, 1))
+    whole = saltus.ModelBuilder().add_floor("ground").add(sliding(), "p_", X=up).build()
     assert whole.sensor_names[:2] == ["p_touch", "p_f"]
     assert [s.other for s in whole.sensors][2:4] == ["p_puck", "p_floor"]
     run = saltus.simulate(whole, duration=0.1)

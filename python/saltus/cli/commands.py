@@ -90,7 +90,7 @@ def simulate(chosen: argparse.Namespace) -> int:
 
 def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
     return saltus.simulate(
-        load(chosen),
+        load(chosen, visuals=chosen.out is not None),  # the file is what pictures are made of
         q=dict(chosen.q),
         v=dict(chosen.v),
         duration=chosen.duration,

@@ -23,6 +23,7 @@ GROUP = "description"
 DOCUMENT = f"{GROUP}/document"
 SMALL = 1000  # bytes of an array that is not compressed
 
+INFINITE = {"inf": math.inf, "-inf": -math.inf}
 Arrays = dict[tuple[str, tuple[int, ...], bytes], tuple[int, npt.NDArray[Any]]]
 
 # What of a description has no part in the motion: models that differ in it alone have one run.
@@ -147,6 +148,7 @@ def _label(where: str, item: Any, index: int) -> str:
 
 def _same(a: Any, b: Any) -> bool:
     """Return whether values are equal; numbers to the rounding of another way to compute them."""
+    a, b = (INFINITE.get(x, x) if isinstance(x, str) else x for x in (a, b))
     if isinstance(a, float) and isinstance(b, float):
         return math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-14)
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):

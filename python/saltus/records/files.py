@@ -115,8 +115,12 @@ def _write(run: Recording, file: h5py.File, visuals: bool) -> None:
     if run.model is None:
         file.attrs["model"] = "not in this file: the run was loaded from a file without it"
         return
+    try:
+        write_model(file, run.model, visuals=visuals)
+    except ModelError as error:  # a model of what no file can hold, as functions
+        file.attrs["model"] = f"not in this file: {error}"
+        return
     file.attrs["model"] = f"JSON in {DOCUMENT}"
-    write_model(file, run.model, visuals=visuals)
 
 
 def _read(kind: type[Kind], file: Stored, model: Model | None) -> Kind:

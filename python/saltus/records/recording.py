@@ -198,8 +198,8 @@ class Recording:
         """Return the model; raise ModelError where there is none."""
         if self.model is None:
             raise ModelError(
-                "this trajectory has no model: its file is of an older version, which had none; "
-                "give it to load: saltus.load(path, model=model)"
+                "this trajectory has no model, which its file does not hold; give it to load: "
+                "saltus.load(path, model=model)"
             )
         return self.model
 

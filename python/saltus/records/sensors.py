@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from saltus._core import Model, ModelError, Sensor, SensorKind
 from saltus.records.tables import Array
 
+Indices = np.typing.NDArray[np.integer[Any]]
+
 
 class Touch(NamedTuple):
     """Impulses between bodies: the row each counts to, its pair, and what acts on the first."""
 
-    row: np.typing.NDArray[np.integer]
+    row: Indices
     pair: list[str]
     normal: Array  # [N s] shape (contacts,)
     impulse: Array  # [N s] with friction, in the world, shape (contacts, 3)
@@ -50,10 +52,10 @@ def _joint_rows(rows: Rows, sensor: Sensor, x: Array, of: str, constant: float) 
     joint = rows.model.joint(sensor.of)
     factor, offset = 1.0, 0.0
     columns = getattr(joint, of)
-    while joint.mimics:  # x_1 = m x_2 + o, x_2 = ...
-        offset += factor * joint.offset
-        factor *= joint.multiplier
-        joint = rows.model.joint(joint.mimics)
+    while joint.mimic is not None:  # x_1 = m x_2 + o, x_2 = ...
+        offset += factor * joint.mimic.offset
+        factor *= joint.mimic.multiplier
+        joint = rows.model.joint(joint.mimic.joint)
     out = x[:, columns] if factor == 1 and offset == 0 else factor * x[:, columns]
     out = out + constant * offset
     return out[:, 0] if len(columns) == 1 else out
@@ -159,7 +161,7 @@ def _whole(side: str) -> str:
     return side.rpartition("[")[0] if side.endswith("]") else side
 
 
-def _per_time(rows: Rows, row: Array, impulses: Array) -> Array:
+def _per_time(rows: Rows, row: Indices, impulses: Array) -> Array:
     """Return the sums of impulses by row as mean forces."""
     out = np.zeros((len(rows.t), *impulses.shape[1:]))
     np.add.at(out, row, impulses)

@@ -201,7 +201,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     ----------
     path : str or os.PathLike
     model : Model, optional
-        The model of the run, for older files without it, or to have its visuals.
+        The model of the run, for files without it, and to have its visuals and sensors.
 
     Returns
     -------
