@@ -87,6 +87,14 @@ def test_dialogues_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
     assert not runner.failures, "".join(said)
 
 
+@pytest.mark.parametrize("page", [p for p in PAGES[1:] if blocks(p, "python")], ids=by_name)
+def test_programs_of_the_manual_run(page, tmp_path):
+    code = "\n".join(blocks(page, "python"))
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert done.returncode == 0, done.stderr
+
+
 def test_urdf_of_the_manual_loads():
     (text,) = blocks(ROOT / "python" / "docs" / "urdf.md", "xml")
     model = saltus.load_urdf(text)
