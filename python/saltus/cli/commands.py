@@ -12,9 +12,9 @@ from pathlib import Path
 import saltus
 from saltus.plots.figure import new_figure
 from saltus.records.impacts import count_line
+from saltus.records.pairs import pair_name
 from saltus.records.replace import check_folder, check_target
 from saltus.records.tables import counted
-from saltus.view.scene import pair_name
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
