@@ -7,7 +7,9 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from test_examples import PREDICTED
 from tests.conftest import ROOT
 
 import saltus
@@ -26,11 +28,16 @@ def blocks(path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize(
-    ("name", "language"), [("hello_cradle.py", "python"), ("hello_cradle.cpp", "cpp")]
-)
-def test_hello_is_the_file(name, language):
-    assert (ROOT / "examples" / name).read_text() in blocks(README, language)
+def test_hello_is_the_file():
+    assert (ROOT / "examples" / "hello_cradle.cpp").read_text() in blocks(README, "cpp")
+
+
+def test_first_program_of_readme_does_what_its_comments_say(tmp_path):
+    (code, _) = blocks(README, "python")
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stdout.startswith("first impact at 0.5046 s\nimpact at t = 0.504644 s: 2 impulses")
+    assert (tmp_path / "cradle.png").stat().st_size > 20_000
 
 
 def test_python_of_readme_runs(tmp_path):
@@ -49,6 +56,41 @@ def test_output_of_readme_is_what_is_printed(capsys):
     readme = README.read_text(encoding="utf-8")
     for line in lines:
         assert f"    {line}\n" in readme
+
+
+def test_numbers_of_the_examples_are_those_they_print():
+    text = README.read_text(encoding="utf-8")
+    cells = [
+        cell for line in text.splitlines() if "](examples/" in line for cell in line.split("|")
+    ]
+    said = [(cell, re.findall(r"\d+\.\d{3,}", cell)) for cell in cells]
+    checked = 0
+    for cell, numbers in said:
+        for number in numbers:
+            example = re.search(r"examples/(\w+)\.py", cell)
+            assert example, cell
+            assert any(number in line for line in PREDICTED[example[1]]), cell
+            checked += 1
+    assert checked >= 7
+
+
+def test_all_examples_are_in_readme():
+    text = README.read_text(encoding="utf-8")
+    for file in [*(ROOT / "examples").glob("*.py"), *(ROOT / "examples").glob("*.cpp")]:
+        assert f"](examples/{file.name})" in text, file.name
+
+
+def test_pictures_of_readme_are_small_and_move():
+    image = pytest.importorskip("PIL.Image")
+    folder = ROOT / "python" / "docs" / "pictures"
+    files = sorted(folder.glob("*.webp"))
+    assert sum(file.stat().st_size for file in files) < 600_000
+    assert (folder / "animation.webp").stat().st_size <= 400_000
+    for file in files:
+        assert f"]({file.relative_to(ROOT)})" in README.read_text(encoding="utf-8"), file
+        picture = image.open(file)
+        assert picture.n_frames >= 50 if file.stem == "animation" else picture.n_frames == 1
+        assert np.asarray(picture.convert("L")).std() > 3, f"{file}: nothing is drawn"
 
 
 def test_tests_named_in_readme_exist():
