@@ -138,7 +138,7 @@ def test_driven_robots_show_controls_limits_and_work(tmp_path):
     np.testing.assert_array_equal(line(control, "turn").get_ydata(), 20.0)
     assert line(control, "turn").get_drawstyle() == "steps-post"
     assert "limit 0.4" in legend(drawn(figure, "angle [rad]"))
-    assert "limit -0.4" not in legend(drawn(figure, "angle [rad]"))
+    assert "limit −0.4" not in legend(drawn(figure, "angle [rad]"))
     work = drawn(figure, "work [J]")
     assert {"lift", "turn", "damping"} <= set(legend(work))
     np.testing.assert_array_equal(line(work, "lift").get_ydata(), run.work["lift"])

@@ -1,4 +1,4 @@
-"""Makes the pictures of the README, beside this file: the animation, and one of each example.
+"""Makes the pictures of README and manual, beside this file: the animation, one of each example.
 
     .venv/bin/python python/docs/pictures/make.py [NAME...]
 
@@ -48,7 +48,7 @@ EXAMPLES = {
     "galton_board": Shot(1.62, view="front"),
     "box_on_edge": Shot(0.319275),
     "tower": Shot(0.05),
-    "incline": Shot(0.7),
+    "incline": Shot(0.7, view="front"),
     "pendulum_and_wall": Shot(0.15, view="front"),
     "where_it_stands": Shot(0.3),
     "stands_up": Shot(2.0, run=0),
@@ -158,10 +158,28 @@ def make_first() -> None:
     picture.resize((800, 460), Image.Resampling.LANCZOS).save(HERE / "first.webp", quality=85)
 
 
+def make_plot() -> None:
+    """Draw a driven pendulum between stops, for the page on plots."""
+    builder = saltus.ModelBuilder("pendulum")
+    builder.add_link("bob", saltus.BodyInertia(1.0, (0, 0, -1.0)))
+    builder.add_joint("swing", "revolute", parent="world", child="bob", axis=(0, 1, 0))
+    builder.set_limit("swing", -0.5, 1.5, restitution=0.7).add_motor("push", joint="swing")
+    model = builder.set_damping("swing", 0.2).build()
+    run = saltus.simulate(
+        model, {"swing": 1.2}, duration=4.0, control=lambda now: {"push": 3 * np.cos(2 * now.t)}
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        figure = run.plot(f"{folder}/plot.png")
+        picture = Image.open(f"{folder}/plot.png").convert("RGB")
+    width, height = (round(100 * inches) for inches in figure.get_size_inches())
+    picture = picture.resize((width, height), Image.Resampling.LANCZOS)
+    picture.save(HERE / "plot.webp", quality=80, method=6)
+
+
 def main() -> None:
     """Make the pictures that are named, or all."""
     warnings.simplefilter("ignore", saltus.ModelWarning)
-    names = sys.argv[1:] or ["animation", "first", *EXAMPLES]
+    names = sys.argv[1:] or ["animation", "first", "plot", *EXAMPLES]
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         browser = Browser(Path(folder))
         try:
@@ -170,6 +188,8 @@ def main() -> None:
                     make_animation(browser)
                 elif name == "first":
                     make_first()
+                elif name == "plot":
+                    make_plot()
                 else:
                     make_example(browser, name)
                 size = (HERE / f"{name}.webp").stat().st_size

@@ -196,7 +196,7 @@ def _coordinates(run: Recording, label: str, columns: list[int]) -> Panel:
         axes.set_ylabel(label)
         for line, limit in limits:
             style = {"color": style_of(line)["color"], "ls": (0, (1, 3)), "lw": 1.0}
-            axes.axhline(limit, label=f"limit {limit:.4g}", zorder=1, **style)
+            axes.axhline(limit, label=f"limit {limit:.4g}".replace("-", "−"), zorder=1, **style)
         if limits:
             axes.legend(**LEGEND)
 
