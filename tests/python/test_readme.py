@@ -94,6 +94,23 @@ def test_pictures_of_readme_are_small_and_move():
         assert np.asarray(picture.convert("L")).std() > 3, f"{file}: nothing is drawn"
 
 
+@pytest.mark.slow
+@pytest.mark.usefixtures("browser")  # which is absent in words where it is
+def test_the_script_beside_the_pictures_makes_them(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    folder = ROOT / "python" / "docs" / "pictures"
+    names = ["first", "plot", "cradle", "tower", "incline"]
+    command = [sys.executable, folder / "make.py", "--to", tmp_path, *names]
+    subprocess.run(command, check=True, capture_output=True, text=True)
+    for name in names:
+        own, kept = (
+            np.asarray(image.open(where / f"{name}.webp").convert("L"), dtype=float)
+            for where in (tmp_path, folder)
+        )
+        assert own.shape == kept.shape, name
+        assert np.abs(own - kept).mean() < 3, f"{name}.webp is not what make.py makes now"
+
+
 def test_tests_named_in_readme_exist():
     rows = re.findall(r"^\|.*\| `(\w+)` \|$", README.read_text(encoding="utf-8"), re.MULTILINE)
     assert len(rows) >= 10

@@ -1,12 +1,13 @@
 """Makes the pictures of README and manual, beside this file: the animation, one of each example.
 
-    .venv/bin/python python/docs/pictures/make.py [NAME...]
+    .venv/bin/python python/docs/pictures/make.py [--to FOLDER] [NAME...]
 
 Needs Chromium, matplotlib, Pillow and websockets. The pages of the runs draw the pictures.
 """
 
 from __future__ import annotations
 
+import argparse
 import base64
 import io
 import runpy
@@ -91,7 +92,7 @@ def frame(tab: Tab, time: float) -> Image.Image:
     return Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))).convert("RGB")
 
 
-def make_example(browser: Browser, name: str) -> None:
+def make_example(browser: Browser, name: str, to: Path) -> None:
     """Write the picture of an example."""
     shot = EXAMPLES[name]
     run = runs_of(shot.example or name)[shot.run]
@@ -101,7 +102,7 @@ def make_example(browser: Browser, name: str) -> None:
         )
     tab = open_page(browser, run, (2 * SMALL[0], 2 * SMALL[1]), shot.view)
     picture = frame(tab, shot.time).resize(SMALL, Image.Resampling.LANCZOS)
-    picture.save(HERE / f"{name}.webp", quality=80, method=6)
+    picture.save(to / f"{name}.webp", quality=80, method=6)
     tab.close()
 
 
@@ -126,7 +127,7 @@ def heap() -> saltus.Trajectory:
     return run
 
 
-def make_animation(browser: Browser) -> None:
+def make_animation(browser: Browser, to: Path) -> None:
     """Write the animation: a cradle, and a heap that comes to rest."""
     swinging = cradle()
     period = 4.0 * swinging.impacts["t"][0]  # the cradle's part repeats
@@ -141,24 +142,24 @@ def make_animation(browser: Browser) -> None:
         sheet.paste(frame(tabs[1], k / RATE), (400, 0))
         frames.append(sheet)
     frames[0].save(
-        HERE / "animation.webp", save_all=True, append_images=frames[1:], loop=0,
+        to / "animation.webp", save_all=True, append_images=frames[1:], loop=0,
         duration=round(1000 / RATE), quality=50, method=6,
     )  # fmt: skip
     for tab in tabs:
         tab.close()
 
 
-def make_first() -> None:
+def make_first(to: Path) -> None:
     """Run the first program of the README, which draws a picture, and keep that."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     code = text.split("```python\n")[1].split("```")[0]
     with tempfile.TemporaryDirectory() as folder, redirect_stdout(io.StringIO()):
         exec(code.replace('"cradle.png"', repr(f"{folder}/cradle.png")), {})
         picture = Image.open(f"{folder}/cradle.png").convert("RGB")
-    picture.resize((800, 460), Image.Resampling.LANCZOS).save(HERE / "first.webp", quality=85)
+    picture.resize((800, 460), Image.Resampling.LANCZOS).save(to / "first.webp", quality=85)
 
 
-def make_plot() -> None:
+def make_plot(to: Path) -> None:
     """Draw a driven pendulum between stops, for the page on plots."""
     builder = saltus.ModelBuilder("pendulum")
     builder.add_link("bob", saltus.BodyInertia(1.0, (0, 0, -1.0)))
@@ -173,26 +174,30 @@ def make_plot() -> None:
         picture = Image.open(f"{folder}/plot.png").convert("RGB")
     width, height = (round(100 * inches) for inches in figure.get_size_inches())
     picture = picture.resize((width, height), Image.Resampling.LANCZOS)
-    picture.save(HERE / "plot.webp", quality=80, method=6)
+    picture.save(to / "plot.webp", quality=80, method=6)
 
 
 def main() -> None:
     """Make the pictures that are named, or all."""
+    parser = argparse.ArgumentParser(description="Makes the pictures of README and manual.")
+    parser.add_argument("--to", type=Path, default=HERE, metavar="FOLDER")
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    chosen = parser.parse_args()
     warnings.simplefilter("ignore", saltus.ModelWarning)
-    names = sys.argv[1:] or ["animation", "first", "plot", *EXAMPLES]
+    names = chosen.names or ["animation", "first", "plot", *EXAMPLES]
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         browser = Browser(Path(folder))
         try:
             for name in names:
                 if name == "animation":
-                    make_animation(browser)
+                    make_animation(browser, chosen.to)
                 elif name == "first":
-                    make_first()
+                    make_first(chosen.to)
                 elif name == "plot":
-                    make_plot()
+                    make_plot(chosen.to)
                 else:
-                    make_example(browser, name)
-                size = (HERE / f"{name}.webp").stat().st_size
+                    make_example(browser, name, chosen.to)
+                size = (chosen.to / f"{name}.webp").stat().st_size
                 print(f"{name}.webp: {size / 1000:.0f} kB")
         finally:
             browser.close()
