@@ -125,7 +125,7 @@ def mark(example: Path) -> object:
     return pytest.param(example, id=example.stem, marks=marks)
 
 
-@pytest.mark.parametrize("example", map(mark, EXAMPLES))
+@pytest.mark.parametrize("example", [*map(mark, EXAMPLES)])
 def test_example_prints_what_it_predicts(example, tmp_path):
     done = subprocess.run(
         [sys.executable, example, *ARGUMENTS.get(example.stem, [])],

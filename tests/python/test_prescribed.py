@@ -25,9 +25,7 @@ def pivot() -> saltus.Model:
     builder = ModelBuilder("pivot").set_gravity((0, -9.81, 0))
     builder.add_link("slide")
     builder.add_link("bob", BodyInertia(1, (0, -1, 0), np.zeros((3, 3))))
-    builder.add_joint(
-        "slide", JointType.prismatic, parent="world", child="slide", axis=(1, 0, 0)
-    )
+    builder.add_joint("slide", JointType.prismatic, parent="world", child="slide", axis=(1, 0, 0))
     builder.add_joint("swing", JointType.revolute, parent="slide", child="bob", axis=(0, 0, 1))
     return builder.set_prescribed("slide", function=shaken).build()
 
@@ -66,9 +64,7 @@ def test_a_ball_on_a_racket_is_exact() -> None:
     builder = ModelBuilder("racket")
     for name, mass in (("racket", 0.2), ("ball", 1.0)):
         builder.add_link(name, BodyInertia(mass, (0, 0, 0), 0.01 * np.eye(3)))
-        builder.add_joint(
-            name, JointType.prismatic, parent="world", child=name, axis=(0, 0, 1)
-        )
+        builder.add_joint(name, JointType.prismatic, parent="world", child=name, axis=(0, 0, 1))
     builder.add_shape("racket", saltus.Sphere(0.5)).add_shape("ball", saltus.Sphere(0.5))
     builder.set_default_contact(restitution=0.8)
     model = builder.set_prescribed("racket", function=shaken).build()

@@ -160,14 +160,18 @@ class Trajectory(Shown):
         files.save(self, path, visuals=visuals)
 
     def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
-        """Draw the run: a cradle as velocities with sketches, others as coordinates and energies.
+        """Draw the run over time: coordinates, velocities, gaps, controls, energies, work.
+
+        A cradle is drawn as in the paper's Fig. 3 (`saltus.plots.plot_cradle`), by velocities with
+        sketches; with `panels=` as other runs are (`saltus.plots.plot_run`).
 
         Parameters
         ----------
         path : str or os.PathLike, optional
-            File for the picture; its suffix selects the format.
+            File for the picture; its suffix selects the format. None: the figure is returned alone.
         **options
-            As in `saltus.plots.plot_cradle` or `saltus.plots.plot_run`.
+            `panels`, `names` and `pairs`, as in `saltus.plots.plot_run`; of a cradle `times` of the
+            sketches, as in `saltus.plots.plot_cradle`.
 
         Returns
         -------
