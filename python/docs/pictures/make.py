@@ -76,9 +76,10 @@ def runs_of(example: str) -> list[saltus.Trajectory]:
 
 def open_page(browser: Browser, run: saltus.Trajectory, size: tuple[int, int], view: str) -> Tab:
     """Return the page of a run, as if it were about to make a video of this size."""
-    with tempfile.NamedTemporaryFile(suffix=".html", delete=False) as file:
-        run.html(file.name)
-    tab = browser.open(f"file://{file.name}").ready()
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "run.html"
+        run.html(page)
+        tab = browser.open(page.as_uri()).ready()
     tab.run(f"saltus.page.look({view!r}); saltus.page.beginVideo({list(size)}, 1); 0")
     return tab
 
