@@ -77,7 +77,8 @@ prescribed" where loops are listed.
 Parameters
 ----------
 joint : str
-    Of one coordinate. What it moves may be without mass of its own.
+    Of one coordinate. The link that it moves may be without mass of
+    its own, where what hangs on it leaves the mass matrix regular.
 times, values : array_like, shape (k,), optional
     [s] ascending, [rad | m]; k is 2 at least.
 function : callable, optional

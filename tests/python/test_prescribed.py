@@ -33,8 +33,9 @@ def pivot() -> saltus.Model:
 def test_a_pendulum_on_a_shaken_pivot_is_the_reference() -> None:
     model = pivot()
     state = saltus.close_loops(model, q=[0, 0.5], v=[1.2, 0.0], keep=["swing"])
-    run = saltus.simulate(model, state=state, duration=2.0, h=H)
-    assert_rows(run, GOLDEN["pivot"]["rows"])
+    rows = GOLDEN["pivot"]["rows"]
+    run = saltus.simulate(model, state=state, duration=rows[-1]["t"], h=H)
+    assert_rows(run, rows)
 
 
 def test_a_shaken_pivot_is_of_second_order() -> None:
@@ -72,26 +73,15 @@ def test_a_ball_on_a_racket_is_exact() -> None:
     h = 0.01
     run = saltus.simulate(model, state=state, duration=1.0, h=h)
     assert len(run.impacts) >= 2
-    # the motion of the ball, whose arcs are exact, and of the racket, which goes by secants
+    # Between impacts a parabola. An arc ends where the racket is then: its gap is that of the motion.
     z, v, t = 1.2, 0.0, 0.0
     for k, impact in enumerate(run.impacts["t"][:2]):
         tau = impact - t
         z, v, t = z + v * tau - 9.81 * tau**2 / 2, v - 9.81 * tau, impact
-        start = math.floor(impact / h) * h
-        part = (impact - start) / h
-        # an arc that ends at an impact goes straight to where the motion is then
-        assert z - 1 == pytest.approx(shaken(impact)[0], abs=1e-12)
-        assert 0 < part < 1
-        rate = shaken(impact)[1]
+        at, rate = shaken(impact)
+        assert z - 1 == pytest.approx(at, abs=1e-12)
+        assert run.impulses["lambda"][k] == pytest.approx(1.8 * (rate - v), rel=1e-11)
         v = rate - 0.8 * (v - rate)
-        assert run.impulses["lambda"][k] == pytest.approx(
-            v - (run_velocity_before(z, v, rate)), rel=1e-9
-        )
-
-
-def run_velocity_before(_: float, after: float, rate: float) -> float:
-    """Return the velocity of the ball before an impact that left it with `after`."""
-    return rate - (after - rate) / 0.8
 
 
 def test_a_spline_is_followed_and_survives_a_file(tmp_path) -> None:
@@ -101,7 +91,8 @@ def test_a_spline_is_followed_and_survives_a_file(tmp_path) -> None:
     model = builder.set_prescribed("lift", [0, 1, 2, 3], [0, 1, 4, 9]).build()
     run = saltus.simulate(model, state=saltus.close_loops(model), duration=4.0, h=0.01)
     for t, x in ((1, 1), (2, 4), (3, 9)):
-        assert run.q[round(100 * t), 0] == pytest.approx(x, abs=1e-13)
+        # 1e-12: a step adds the secant of its own
+        assert run.q[round(100 * t), 0] == pytest.approx(x, abs=1e-12)
     # beyond its ends a line: no force but the weight
     assert run.v[-1, 0] == pytest.approx(run.v[310, 0], abs=1e-12)
     stepper = saltus.Stepper(model, 0.01)
@@ -122,7 +113,8 @@ def test_functions_are_not_kept(tmp_path) -> None:
     model = pivot()
     with pytest.raises(TypeError, match="its prescribed motion of 'slide' is a function"):
         pickle.dumps(model)
-    run = saltus.simulate(model, state=saltus.close_loops(model), duration=0.1)
+    state = saltus.close_loops(model, q=[0, 0.5], keep=["swing"])
+    run = saltus.simulate(model, state=state, duration=0.1)
     run.save(tmp_path / "run.h5")
     assert saltus.load(tmp_path / "run.h5").model is None
     np.testing.assert_array_equal(saltus.load(tmp_path / "run.h5", model=model).q, run.q)
