@@ -159,6 +159,9 @@ def test_virtual_joints_are_the_roots_own():
         fixed = saltus.load_urdf(chain_on_a_body(), srdf=text)
     assert free.state("up").q.tolist() == [1, 2, 3, 0, 0, 0, 1, 0.5, 0]
     assert fixed.state("up").q.tolist() == [0.5, 0]
+    pinocchio = srdf(group_state("up", root_joint="1 2 3 0 0 0 1"))
+    free = saltus.load_urdf(chain_on_a_body(), srdf=pinocchio, root_joint="floating")
+    assert free.state("up").q.tolist() == [1, 2, 3, 0, 0, 0, 1, 0, 0]
 
 
 def test_states_of_builders():

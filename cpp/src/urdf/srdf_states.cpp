@@ -69,7 +69,17 @@ class GroupStates {
       }
       return "";
     }
-    return joint;
+    return joint == "root_joint" ? free_root() : joint;
+  }
+
+  /// "root_joint" is what Pinocchio calls a free root: that of this name, or the one at the root.
+  std::string free_root() const {
+    std::string root;
+    for (const JointSpec& each : d_.joints) {
+      if (each.name == "root_joint") return each.name;
+      if (each.parent == d_.root && each.type == JointType::floating) root = each.name;
+    }
+    return root;
   }
 
   std::vector<double> numbers(const XMLElement& joint) const {
