@@ -10,6 +10,7 @@ namespace {
 
 using test::arm;
 using test::expect_error;
+using test::two_balls;
 
 TEST(NamedStates, AreFoundByName) {
   ModelBuilder builder = arm();
@@ -57,8 +58,9 @@ TEST(NamedStates, GetThePrefixOfWhatIsAdded) {
   EXPECT_EQ(whole->description->sensors[0].of, "a_elbow");
   ModelBuilder twice = arm();
   twice.add_state({"home"});
-  expect_error([&] { twice.add(arm().add_state({"home"}).description(), {.prefix = ""}); }, "link",
-               "upper", {"both"});
+  const ModelDescription other = ModelBuilder(two_balls()).add_state({"home"}).description();
+  expect_error([&] { twice.add(other, {.prefix = ""}); }, "state", "home",
+               {"both", "state \"home\"; a prefix makes names differ"});
 }
 
 }  // namespace
