@@ -57,10 +57,10 @@ TEST(NamedStates, GetThePrefixOfWhatIsAdded) {
   EXPECT_EQ(named_q(whole, "a_home"), named_q(builder.build(), "home"));
   EXPECT_EQ(whole->description->sensors[0].of, "a_elbow");
   ModelBuilder twice = arm();
-  twice.add_state({"home"});
+  twice.add_state({"b_home"});
   const ModelDescription other = ModelBuilder(two_balls()).add_state({"home"}).description();
-  expect_error([&] { twice.add(other, {.prefix = ""}); }, "state", "home",
-               {"both", "state \"home\"; a prefix makes names differ"});
+  expect_error([&] { twice.add(other, {.prefix = "b_"}); }, "state", "b_home",
+               {"both", "state \"b_home\"; a prefix makes names differ"});
 }
 
 }  // namespace
