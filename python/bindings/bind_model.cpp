@@ -141,8 +141,6 @@ void bind_lists(py::class_<Model>& c) {
       .def_property_readonly("joint_names", [](const Model& m) { return names_of(m->joints); })
       .def_property_readonly("coordinate_names",
                              [](const Model& m) { return names_of(m->coordinates); })
-      .def_property_readonly("state_names", &state_names,
-                             "of states that `state` gives by name, see `ModelBuilder.add_state`")
       .def_property_readonly("velocity_names", [](const Model& m) { return m->velocity_names; })
       .def_property_readonly("pair_names", &pair_names,
                              "\"a ~ b\" of every pair, \"a[part] ~ b\" where shapes have several")

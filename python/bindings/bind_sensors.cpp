@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "pickle.hpp"
+#include "saltus/model/named_state.hpp"
 #include "saltus/model/sensor.hpp"
 
 namespace saltus::bindings {
@@ -184,6 +185,8 @@ void bind_model_sensors(py::class_<Model>& c) {
   c.def_property_readonly(
        "sensors", [](const Model& m) -> const auto& { return m->description->sensors; },
        "what it measures by name, see `ModelBuilder.add_sensor`")
+      .def_property_readonly("state_names", &state_names,
+                             "of states that `state` gives by name, see `ModelBuilder.add_state`")
       .def_property_readonly("sensor_names",
                              [](const Model& m) { return names_of(m->description->sensors); })
       .def("actuator_forces", &actuator_forces, actuator_forces_doc, py::arg("q"), py::arg("v"),

@@ -147,6 +147,23 @@ def test_free_roots():
         saltus.load_urdf(chain_on_a_body(), srdf=text.format("1 2 3 0 0 0 2"), **options)
 
 
+def test_virtual_joints_are_the_roots_own():
+    text = (
+        "<robot name='x'><virtual_joint name='base' type='floating' parent_frame='odom' "
+        "child_link='frame'/><group_state name='up' group='all'><joint name='base' "
+        "value='1 2 3 0 0 0 1'/><joint name='joint_0' value='0.5'/></group_state></robot>"
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        free = saltus.load_urdf(chain_on_a_body(), srdf=text, root_joint="floating")
+        fixed = saltus.load_urdf(chain_on_a_body(), srdf=text)
+    assert free.state("up").q.tolist() == [1, 2, 3, 0, 0, 0, 1, 0.5, 0]
+    assert fixed.state("up").q.tolist() == [0.5, 0]
+    pinocchio = srdf(group_state("up", root_joint="1 2 3 0 0 0 1"))
+    free = saltus.load_urdf(chain_on_a_body(), srdf=pinocchio, root_joint="floating")
+    assert free.state("up").q.tolist() == [1, 2, 3, 0, 0, 0, 1, 0, 0]
+
+
 def test_states_of_builders():
     builder = saltus.read_urdf(chain_on_a_body(), root_joint="floating")
     up = saltus.Pose((0, 0, 1), saltus.rotation_from_rpy(0, 0, 1))

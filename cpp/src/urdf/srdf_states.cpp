@@ -42,9 +42,10 @@ class GroupStates {
   StateSpec state(const XMLElement& element, const std::string& name) {
     StateSpec state{name};
     for (auto e = element.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) {
-      const std::string joint = given(srdf_, *e, "name");
+      const std::string said = given(srdf_, *e, "name"), joint = own_name(said);
+      if (joint.empty()) continue;
       const std::string start =
-          srdf_.at(*e) + "state " + in_quotes(name) + " names joint " + in_quotes(joint);
+          srdf_.at(*e) + "state " + in_quotes(name) + " names joint " + in_quotes(said);
       const std::vector<double> values = numbers(*e);
       const auto found = std::find_if(d_.joints.begin(), d_.joints.end(),
                                       [&](const JointSpec& each) { return each.name == joint; });
@@ -56,6 +57,29 @@ class GroupStates {
     }
     drop_mimics(element, state);
     return state;
+  }
+
+  /// A virtual joint is the one that holds its child to the world, under whatever name; "" where
+  /// the child is the root itself, which does not move.
+  std::string own_name(const std::string& joint) const {
+    for (const XMLElement* e : srdf_.all("virtual_joint")) {
+      if (attribute(*e, "name") != joint) continue;
+      for (const JointSpec& each : d_.joints) {
+        if (each.parent == d_.root && each.child == attribute(*e, "child_link")) return each.name;
+      }
+      return "";
+    }
+    return joint == "root_joint" ? free_root() : joint;
+  }
+
+  /// "root_joint" is what Pinocchio calls a free root: that of this name, or the one at the root.
+  std::string free_root() const {
+    std::string root;
+    for (const JointSpec& each : d_.joints) {
+      if (each.name == "root_joint") return each.name;
+      if (each.parent == d_.root && each.type == JointType::floating) root = each.name;
+    }
+    return root;
   }
 
   std::vector<double> numbers(const XMLElement& joint) const {

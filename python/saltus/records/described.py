@@ -6,7 +6,6 @@ The document is `Model._description`. Each array in it is replaced by `{"array":
 
 from __future__ import annotations
 
-import json
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +32,8 @@ UNMOVED = {"name", "source", "solver", "visuals", "filter", "states", "sensors",
 
 def write_model(file: h5py.File, model: Model, *, visuals: bool) -> None:
     """Write a model into a file; without visuals it is smaller."""
+    import json
+
     import h5py
 
     description = model._description()
@@ -53,6 +54,8 @@ def write_model(file: h5py.File, model: Model, *, visuals: bool) -> None:
 
 def read_description(file: Stored) -> dict[str, Any]:
     """Return the plain data of a file's model."""
+    import json
+
     version = _version(file)
     if version > _DESCRIPTION_VERSION:
         raise ModelError(

@@ -10,6 +10,7 @@ namespace {
 
 using test::arm;
 using test::expect_error;
+using test::two_balls;
 
 TEST(NamedStates, AreFoundByName) {
   ModelBuilder builder = arm();
@@ -56,9 +57,10 @@ TEST(NamedStates, GetThePrefixOfWhatIsAdded) {
   EXPECT_EQ(named_q(whole, "a_home"), named_q(builder.build(), "home"));
   EXPECT_EQ(whole->description->sensors[0].of, "a_elbow");
   ModelBuilder twice = arm();
-  twice.add_state({"home"});
-  expect_error([&] { twice.add(arm().add_state({"home"}).description(), {.prefix = ""}); }, "link",
-               "upper", {"both"});
+  twice.add_state({"b_home"});
+  const ModelDescription other = ModelBuilder(two_balls()).add_state({"home"}).description();
+  expect_error([&] { twice.add(other, {.prefix = "b_"}); }, "state", "b_home",
+               {"both", "state \"b_home\"; a prefix makes names differ"});
 }
 
 }  // namespace
