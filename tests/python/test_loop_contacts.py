@@ -176,3 +176,5 @@ def test_loops_are_read_from_a_file(tmp_path) -> None:
     with pytest.raises(ModelError, match='has "x" in polynomial; it is numbers'):
         saltus.load_urdf(coupled)
     assert saltus.load_urdf(coupled.replace("0 x", "0 1")).loop_names == ["pin", "rocker coupling"]
+    told = text.replace("<saltus>", '<saltus><prescribed joint="crank" times="0 1" values="1 2"/>')
+    assert saltus.load_urdf(told).loop_names == ["pin", "crank prescribed"]

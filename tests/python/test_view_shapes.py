@@ -166,7 +166,8 @@ def test_a_model_without_shapes_is_drawn_by_its_joints(open_page):
 
 
 def test_a_file_without_a_model_says_what_to_do(tmp_path):
-    model = saltus.ModelBuilder().add_body("b", saltus.Sphere(0.1), mass=1.0).build()
+    builder = saltus.ModelBuilder().add_body("b", saltus.Sphere(0.1), mass=1.0)
+    model = builder.add_force("calm", lambda now: np.zeros(6)).build()
     saltus.simulate(model, duration=0.1).save(tmp_path / "run.h5")
     run = saltus.load(tmp_path / "run.h5")
     with pytest.raises(saltus.ModelError, match=r"saltus\.load\(path, model=model\)"):

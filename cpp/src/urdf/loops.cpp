@@ -27,11 +27,11 @@ At checked_end(const Document& document, const XMLElement& e, const Owner& owner
                     list_names(document.names("link")));
 }
 
-std::vector<double> polynomial_of(const Document& document, const XMLElement& e,
-                                  const Owner& owner) {
-  const Numbers numbers = parse_numbers(attribute(e, "polynomial"));
+std::vector<double> numbers_of(const Document& document, const XMLElement& e, const Owner& owner,
+                               const char* name) {
+  const Numbers numbers = parse_numbers(attribute(e, name));
   if (!numbers.bad.empty()) {
-    document.fail(e, owner, "has " + in_quotes(numbers.bad) + " in polynomial; it is numbers");
+    document.fail(e, owner, "has " + in_quotes(numbers.bad) + " in " + name + "; it is numbers");
   }
   return numbers.values;
 }
@@ -40,7 +40,7 @@ std::vector<double> polynomial_of(const Document& document, const XMLElement& e,
 
 bool add_loop_element(const Document& document, const XMLElement& e, ModelBuilder& builder) {
   const std::string kind = e.Name();
-  if (kind != "loop" && kind != "coupling") return false;
+  if (kind != "loop" && kind != "coupling" && kind != "prescribed") return false;
   const Owner owner{kind, attribute(e, kind == "loop" ? "name" : "joint")};
   try {
     if (kind == "loop") {
@@ -48,8 +48,12 @@ bool add_loop_element(const Document& document, const XMLElement& e, ModelBuilde
       builder.add_loop(owner.name, type_of(document, e, owner),
                        end(end_on(e, "link1", "xyz1", "rpy1")),
                        end(end_on(e, "link2", "xyz2", "rpy2")), number(e, "distance", 0));
+    } else if (kind == "coupling") {
+      builder.add_coupling(owner.name, attribute(e, "of"),
+                           numbers_of(document, e, owner, "polynomial"));
     } else {
-      builder.add_coupling(owner.name, attribute(e, "of"), polynomial_of(document, e, owner));
+      builder.set_prescribed(owner.name, numbers_of(document, e, owner, "times"),
+                             numbers_of(document, e, owner, "values"));
     }
   } catch (const ModelError& error) {
     if (std::string(error.what()).find(document.at(e)) == 0) throw;

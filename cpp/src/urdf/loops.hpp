@@ -1,4 +1,4 @@
-// Loops and couplings in the block `<saltus>`.
+// Loops, couplings and prescribed motion in the block `<saltus>`.
 #pragma once
 
 #include "saltus/model/model_builder.hpp"
@@ -6,7 +6,7 @@
 
 namespace saltus::reader {
 
-/// `<loop>` and `<coupling>`. @return false where the element is none of these.
+/// `<loop>`, `<coupling>` and `<prescribed>`. @return false where the element is none of these.
 bool add_loop_element(const Document& document, const XMLElement& element, ModelBuilder& builder);
 
 }  // namespace saltus::reader

@@ -75,6 +75,51 @@ ElementRule joint() {
           .skipped = {"safety_controller", "calibration", "hardwareInterface", "sensor"}};
 }
 
+/// What holds and drives joints and links.
+std::vector<ElementRule> drive_rules() {
+  const NumberRule effort{"effort", 1, !required, positive, may_be_infinite};
+  return {
+      {.name = "loop",
+       .numbers = {{"xyz1", 3}, {"rpy1", 3}, {"xyz2", 3}, {"rpy2", 3}, {"distance"}},
+       .texts = {{"name", required}, {"type", required}, {"link1", required}, {"link2", required}},
+       .strict = true},
+      {.name = "coupling",
+       .texts = {{"joint", required}, {"of", required}, {"polynomial", required}},
+       .strict = true},
+      {.name = "prescribed",
+       .texts = {{"joint", required}, {"times", required}, {"values", required}},
+       .strict = true},
+      {.name = "motor",
+       .numbers = {{"gear"}, effort},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "position_servo",
+       .numbers = {{"kp", 1, required}, {"kd"}, effort},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "velocity_servo",
+       .numbers = {{"kv", 1, required}, effort},
+       .texts = {{"name", required}, {"joint", required}},
+       .strict = true},
+      {.name = "spring",
+       .numbers = {{"xyz1", 3}, {"xyz2", 3}, {"stiffness"}, {"length"}, {"damping"}},
+       .texts = {{"name", required}, {"link1", required}, {"link2", required}},
+       .strict = true},
+      {.name = "gravity_compensation",
+       .numbers = {{"part"}},
+       .texts = {{"link", required}},
+       .strict = true},
+      {.name = "joint",
+       .numbers = {{"armature"},
+                   {"damping"},
+                   {"friction"},
+                   {"stiffness"},
+                   {"rest"},
+                   {"limit_restitution"}},
+       .texts = {{"name", required}},
+       .strict = true}};
+}
+
 ElementRule extension() {
   std::vector<ElementRule> children = {{.name = "half_space",
                                         .numbers = {{"normal", 3}, {"offset"}},
@@ -97,46 +142,11 @@ ElementRule extension() {
        .numbers = {{"restitution"}, {"friction"}},
        .texts = {{"material1"}, {"material2"}},
        .strict = true},
-      {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true},
-      {.name = "loop",
-       .numbers = {{"xyz1", 3}, {"rpy1", 3}, {"xyz2", 3}, {"rpy2", 3}, {"distance"}},
-       .texts = {{"name", required}, {"type", required}, {"link1", required}, {"link2", required}},
-       .strict = true},
-      {.name = "coupling",
-       .texts = {{"joint", required}, {"of", required}, {"polynomial", required}},
-       .strict = true},
-      {.name = "motor",
-       .numbers = {{"gear"}, {"effort", 1, !required, positive, may_be_infinite}},
-       .texts = {{"name", required}, {"joint", required}},
-       .strict = true},
-      {.name = "position_servo",
-       .numbers = {{"kp", 1, required},
-                   {"kd"},
-                   {"effort", 1, !required, positive, may_be_infinite}},
-       .texts = {{"name", required}, {"joint", required}},
-       .strict = true},
-      {.name = "velocity_servo",
-       .numbers = {{"kv", 1, required}, {"effort", 1, !required, positive, may_be_infinite}},
-       .texts = {{"name", required}, {"joint", required}},
-       .strict = true},
-      {.name = "spring",
-       .numbers = {{"xyz1", 3}, {"xyz2", 3}, {"stiffness"}, {"length"}, {"damping"}},
-       .texts = {{"name", required}, {"link1", required}, {"link2", required}},
-       .strict = true},
-      {.name = "gravity_compensation",
-       .numbers = {{"part"}},
-       .texts = {{"link", required}},
-       .strict = true},
-      {.name = "joint",
-       .numbers = {{"armature"},
-                   {"damping"},
-                   {"friction"},
-                   {"stiffness"},
-                   {"rest"},
-                   {"limit_restitution"}},
-       .texts = {{"name", required}},
-       .strict = true}};
-  children.insert(children.end(), others.begin(), others.end());
+      {.name = "adjacent_links", .texts = {{"gaps", required}}, .strict = true}};
+  const std::vector<ElementRule> drives = drive_rules();
+  for (const auto* each : {&others, &drives}) {
+    children.insert(children.end(), each->begin(), each->end());
+  }
   return {.name = "saltus", .children = children, .strict = true};
 }
 

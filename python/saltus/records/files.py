@@ -221,8 +221,11 @@ def _model(
 
 def _has_functions(description: dict[str, Any]) -> bool:
     """Return whether a part of the model was a function, which a file cannot hold."""
-    told = [spec.get("function") for spec in description.get("prescribed", [])]
-    return bool(description.get("forces") or description.get("potentials") or any(told))
+    for name, key in (("forces", "name"), ("potentials", "name"), ("prescribed", "function")):
+        parts = description.get(name)  # of a broken file anything
+        if isinstance(parts, list) and any(isinstance(p, dict) and p.get(key) for p in parts):
+            return True
+    return False
 
 
 def _step_options(file: Stored) -> StepOptions:
