@@ -192,8 +192,7 @@ def test_a_run_of_a_changed_model_does_not_load_as_another(tmp_path) -> None:
     run.save(tmp_path / "run.npz")
     loaded = saltus.load(tmp_path / "run.npz")
     np.testing.assert_array_equal(loaded.q, run.q)
-    with pytest.raises(ModelError):
-        loaded.model  # noqa: B018
+    assert loaded.model is None
 
 
 def test_parts_of_models_bring_their_springs() -> None:
@@ -322,7 +321,7 @@ def test_wrong_forces_are_named() -> None:
         damped_by(lambda now: [0], coordinates=["knee"])
     with pytest.raises(ModelError, match='names coordinate "elbow" twice'):
         damped_by(lambda now: [0, 0], coordinates=["elbow", "elbow"])
-    with pytest.raises(TypeError, match='function of force "wind" is 3'):
+    with pytest.raises(TypeError, match="which is no function"):
         damped_by(3)
     with pytest.raises(TypeError, match="its force 'wind' is a function"):
         pickle.dumps(damped_by(lambda now: now.v))
@@ -400,6 +399,7 @@ def test_springs_hold_where_a_body_rests_and_hits() -> None:
     assert run.complete
     assert len(run.impacts) > 1
     assert not len(run.fallbacks)
-    # 8 N/m lift a little of 9.81 N: it ends at rest on the floor, below the spring or near it
-    assert np.abs(run.v[-1]).max() < 0.05
+    # 8 N/m lift a little of 9.81 N: in the end it rolls to and fro on the floor, below the spring
     assert run.q[-1, 2] == pytest.approx(-0.9, abs=1e-9)
+    assert abs(run.v[-1, 0]) > 0.01
+    np.testing.assert_allclose(run.v[-100:, 0], 0.1 * run.v[-100:, 4], atol=1e-9)
