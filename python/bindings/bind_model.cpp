@@ -278,7 +278,8 @@ void bind_model(py::module_& m) {
           [](const Model& model, const Coordinates& q) {
             return model.potential_energy(to_vector(q, model));
           },
-          "[J] of gravity, zero at the world's origin, and of springs and potentials.", py::arg("q"))
+          "[J] of gravity, zero at the world's origin, and of springs and potentials.",
+          py::arg("q"))
       .def(
           "pose",
           [](const Model& model, const Coordinates& q, const NameOrLink& link) {

@@ -46,9 +46,8 @@ void check_function(const py::object& force, const Model& model,
 
 void bind_points(py::module_& m) {
   py::class_<LinkPoint>(m, "At", docs::at_doc)
-      .def(py::init([](const std::string& link, const Vec3& point) {
-             return LinkPoint{link, point};
-           }),
+      .def(py::init(
+               [](const std::string& link, const Vec3& point) { return LinkPoint{link, point}; }),
            py::arg("link"), py::arg_v("point", Vec3(Vec3::Zero()), "(0, 0, 0)"))
       .def_readonly("link", &LinkPoint::link)
       .def_readonly("point", &LinkPoint::point, "[m] in the link's frame")
@@ -85,7 +84,8 @@ void bind_springs(py::class_<B>& c) {
            docs::set_gravity_compensation, py::arg("link"), py::arg("part") = 1.0)
       .def(
           "add_force",
-          [](B& builder, const std::string& name, const py::typing::Callable<py::object(PythonMoment)>& function,
+          [](B& builder, const std::string& name,
+             const py::typing::Callable<py::object(PythonMoment)>& function,
              const std::vector<std::string>& coordinates) -> B& {
             return builder.add_force({name, to_force_function(name, function), coordinates});
           },
@@ -93,7 +93,8 @@ void bind_springs(py::class_<B>& c) {
           py::arg_v("coordinates", std::vector<std::string>{}, "()"))
       .def(
           "add_potential",
-          [](B& builder, const std::string& name, const py::typing::Callable<py::object(VecX)>& value,
+          [](B& builder, const std::string& name,
+             const py::typing::Callable<py::object(VecX)>& value,
              const py::typing::Callable<py::object(VecX)>& gradient,
              const py::typing::Callable<py::object(VecX)>& hessian) -> B& {
             return builder.add_potential(to_potential(name, value, gradient, hessian));

@@ -71,8 +71,7 @@ ForceFunction to_force_function(const std::string& name, const py::object& funct
     }
     const auto all = returned.cast<py::tuple>();
     if (all.size() != 3) {
-      throw ModelError("force \"" + name + "\" returned a tuple of " +
-                           std::to_string(all.size()) +
+      throw ModelError("force \"" + name + "\" returned a tuple of " + std::to_string(all.size()) +
                            "; it returns Q, an array or a list, or the tuple (Q, Q_q, Q_v)",
                        "force", name);
     }

@@ -25,11 +25,10 @@ struct Listed {
 using J = JointSpec;
 using Links = Listed<LinkSpec, &LinkSpec::name, &LinkSpec::inertia, &LinkSpec::check,
                      &LinkSpec::compensation>;
-using Joints =
-    Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch, &J::mimic,
-           &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping, &J::friction, &J::armature,
-           &J::stiffness, &J::rest, &J::limit_restitution, &J::curve_x, &J::curve_f,
-           &J::curve_slopes, &J::effects>;
+using Joints = Listed<J, &J::name, &J::type, &J::parent, &J::child, &J::X_PJ, &J::axis, &J::pitch,
+                      &J::mimic, &J::lower, &J::upper, &J::velocity, &J::effort, &J::damping,
+                      &J::friction, &J::armature, &J::stiffness, &J::rest, &J::limit_restitution,
+                      &J::curve_x, &J::curve_f, &J::curve_slopes, &J::effects>;
 using A = ActuatorSpec;
 using Actuators = Listed<A, &A::name, &A::joints, &A::gain, &A::bias, &A::bias_l, &A::bias_v,
                          &A::effort, &A::lower, &A::upper>;
@@ -101,12 +100,11 @@ py::tuple to_tuple(const ModelDescription& d) {
   check_no_functions(d);
   const FilterSpec& f = d.filter;
   const MaterialSpec& m = d.materials;
-  return py::make_tuple(d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links),
-                        Joints::from(d.joints), Shapes::from(d.shapes),
-                        py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
-                        py::make_tuple(m.of_link, m.contact, m.standard), d.warnings,
-                        Actuators::from(d.actuators), Visuals::from(d.visuals),
-                        Springs::from(d.springs));
+  return py::make_tuple(
+      d.name, d.root, d.source, d.gravity, d.solver, Links::from(d.links), Joints::from(d.joints),
+      Shapes::from(d.shapes), py::make_tuple(f.links, f.bodies, f.groups, f.group_of, f.adjacent),
+      py::make_tuple(m.of_link, m.contact, m.standard), d.warnings, Actuators::from(d.actuators),
+      Visuals::from(d.visuals), Springs::from(d.springs));
 }
 
 py::tuple moving_parts(const ModelDescription& d) {

@@ -24,8 +24,8 @@ void check_partials(const FunctionForce& force, const ForceMoment& now, const Ma
   const auto m = static_cast<Eigen::Index>(force.velocities.size()), n = now.v.size();
   if (x.rows() != m || x.cols() != n) {
     refuse(force, now,
-           std::string(name) + " of shape " + shape(x.rows(), x.cols()) + "; it is " +
-               shape(m, n) + ", a row for each coordinate that it pushes");
+           std::string(name) + " of shape " + shape(x.rows(), x.cols()) + "; it is " + shape(m, n) +
+               ", a row for each coordinate that it pushes");
   }
   for (Eigen::Index i = 0; i < m; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {

@@ -86,8 +86,8 @@ void check_potential(const Model& model, const PotentialFunction& V) {
 
 template <class Items>
 const auto* find(const Items& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const auto& each) { return each.name == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const auto& each) { return each.name == name; });
   return found == items.end() ? nullptr : &*found;
 }
 

@@ -12,7 +12,8 @@ namespace saltus::reader {
 void add_transmissions(const Document& document, ModelBuilder& builder);
 
 /// `<motor>`, `<position_servo>`, `<velocity_servo>`, `<spring>`, `<gravity_compensation>`, and
-/// `<joint>` with armature, spring and restitution. @return false where the element is none of these.
+/// `<joint>` with armature, spring and restitution. @return false where the element is none of
+/// these.
 bool add_force_element(const Document& document, const XMLElement& element, ModelBuilder& builder);
 
 }  // namespace saltus::reader

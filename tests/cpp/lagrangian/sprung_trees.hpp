@@ -77,8 +77,8 @@ inline void add_potentials(std::uint64_t seed, bool has_functions, RandomTree& t
     bool is_ball = false;
     for (const Ball& ball : t.tree.balls) is_ball |= c >= ball.velocity && c < ball.velocity + 3;
     if (is_ball) continue;
-    all.curves.push_back({c, random.uniform(0.5, 1.5), random.uniform(-0.2, 0.2),
-                          random_curve(random)});
+    all.curves.push_back(
+        {c, random.uniform(0.5, 1.5), random.uniform(-0.2, 0.2), random_curve(random)});
     break;
   }
   if (has_functions) all.functions.push_back(random_function(random, t.tree));

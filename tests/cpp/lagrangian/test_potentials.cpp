@@ -111,8 +111,8 @@ TEST(Potentials, RateOfAnArcsMomentumByItsDuration) {
     const RandomTree t = sprung(k);
     BallArc arc(t, TreeSolver::automatic);
     const double tau = 0.05;
-    VecX numeric = -test::derivative([&](double h) { return arc.momenta(t.v, tau + h).start; },
-                                     step);
+    VecX numeric =
+        -test::derivative([&](double h) { return arc.momenta(t.v, tau + h).start; }, step);
     ASSERT_TRUE(arc.factorize(t.v, tau));
     VecX rate(t.tree.n_v), scratch(t.tree.n_v);
     set_momentum_rate(t.tree, arc.packed, arc.w, tau, arc.products, scratch, rate);
@@ -176,10 +176,8 @@ TEST(Potentials, ShadowsGradientIsTheNumericOne) {
     EXPECT_NEAR(term.kappa, value, 1e-11 * size) << k;
     for (int j = 0; j < t.tree.n_v; ++j) {
       const VecX e = VecX::Unit(t.tree.n_v, j);
-      const double by_q =
-          test::derivative([&](double h) { return kappa(t.q + h * e, t.v); }, step);
-      const double by_v =
-          test::derivative([&](double h) { return kappa(t.q, t.v + h * e); }, step);
+      const double by_q = test::derivative([&](double h) { return kappa(t.q + h * e, t.v); }, step);
+      const double by_v = test::derivative([&](double h) { return kappa(t.q, t.v + h * e); }, step);
       EXPECT_NEAR(term.kappa_q[j], by_q, 1e-8 * size) << k << " " << j;
       EXPECT_NEAR(term.kappa_v[j], by_v, 1e-8 * size) << k << " " << j;
     }

@@ -1,4 +1,5 @@
-// A cubic spline f(x) through points, twice continuously differentiable, and a line beyond its ends.
+// A cubic spline f(x) through points, twice continuously differentiable, and a line beyond its
+// ends.
 //
 // Between knots, with m the second derivatives at them and h = x1 - x0, t = x - x0, u = x1 - x:
 //

@@ -23,8 +23,8 @@
 // servos, is on the diagonal, a + tau^2/4 (k - Q_q) - tau/2 Q_v, and adds to its pivot; of a ball
 // -tau/2 C Q_v to Delta (theory, F1).
 //
-// Mimic joints tie distant branches together; there the dense matrix C^T J C is factored, and so is J
-// where PackedTree::dense_arcs says so.
+// Mimic joints tie distant branches together; there the dense matrix C^T J C is factored, and so is
+// J where PackedTree::dense_arcs says so.
 #pragma once
 
 #include <Eigen/LU>

@@ -42,9 +42,9 @@ struct CurveSpring {
 /// Whoever writes these throws what it likes; callers let it through.
 struct PotentialFunction {
   std::string name;
-  std::function<double(const VecX& q)> value;               ///< [J]
-  std::function<void(const VecX& q, VecX& V_q)> gradient;   ///< (n_v) [N m | N]
-  std::function<void(const VecX& q, MatX& V_qq)> hessian;   ///< (n_v, n_v)
+  std::function<double(const VecX& q)> value;              ///< [J]
+  std::function<void(const VecX& q, VecX& V_q)> gradient;  ///< (n_v) [N m | N]
+  std::function<void(const VecX& q, MatX& V_qq)> hessian;  ///< (n_v, n_v)
 };
 
 struct Potentials {

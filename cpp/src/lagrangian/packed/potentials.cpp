@@ -3,8 +3,9 @@
 //   point spring  f_a = -k (1 - l/d) r, f_b = -f_a    Q = (J_a - J_b)^T f_a
 //   V_qq = (J_a - J_b)^T K (J_a - J_b) - f.H          K = k (1 - l/d) 1 + k l/d n n^T
 //
-// f.H, H = dJ/dq, is made of generators G = J x f, as gravity's is, that of constant forces too; the
-// rest are three columns a spring. All of it is by velocity and added to slots at the end, so that plain loops do.
+// f.H, H = dJ/dq, is made of generators G = J x f, as gravity's is, that of constant forces too;
+// the rest are three columns a spring. All of it is by velocity and added to slots at the end, so
+// that plain loops do.
 #include "lagrangian/packed/potentials.hpp"
 
 #include <cmath>

@@ -76,9 +76,9 @@ struct Compensation {
 struct ArcScratch {
   ArcScratch(const ModelData& model, ImpactLaw law);
   std::optional<Compensation> compensation;
-  ForceValues forces;                 ///< of the last evaluation; written where has_forces
-  VecX wrench_force;                  ///< (n_v) the part of them that wrenches on bodies make
-  VecX point_pull;                    ///< (n_v) likewise dampers between points
+  ForceValues forces;  ///< of the last evaluation; written where has_forces
+  VecX wrench_force;   ///< (n_v) the part of them that wrenches on bodies make
+  VecX point_pull;     ///< (n_v) likewise dampers between points
   std::vector<PlacedDamper> dampers;
   const ForceInput* input = nullptr;  ///< what drives the step; written by the stepper
   bool has_forces = false;            ///< likewise: the model or the input has some

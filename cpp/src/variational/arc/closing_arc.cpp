@@ -44,8 +44,7 @@ bool solve_closing_arc(const ModelData& model, const ArcProblem& problem, const 
   const double touch = gap.pair.touch;
   double before = std::numeric_limits<double>::infinity(), phi_before = before;
   for (arc.iterations = 0; arc.iterations <= most_iterations; ++arc.iterations) {
-    const ArcProblem a{problem.q, problem.p, arc.tau, nullptr, problem.whole,
-                       problem.t};
+    const ArcProblem a{problem.q, problem.p, arc.tau, nullptr, problem.whole, problem.t};
     arc.residual = momentum_residual(model, a, arc.v, s);
     if (!std::isfinite(arc.residual)) return false;
     const double phi = gap_at_end(model, a, arc.v, gap.pair, s, gap.n);

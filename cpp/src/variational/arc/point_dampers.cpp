@@ -32,8 +32,8 @@ void add_turned_rates(const Packed& w, const PackedPoint& point, const Vec3& P, 
   for (const PointMover& m : point.movers) {
     const double* numbers = at(w.S_W, m.slot);
     const Vec6 S = six(numbers), X = cross_motion(S, V) + six(numbers + 6 * lanes);
-    const Vec3 rate = linear(X) + angular(X).cross(P) +
-                      angular(V).cross(linear(S) + angular(S).cross(P));
+    const Vec3 rate =
+        linear(X) + angular(X).cross(P) + angular(V).cross(linear(S) + angular(S).cross(P));
     z[m.velocity] += sign * m.multiplier * n.dot(rate);
   }
 }

@@ -257,8 +257,8 @@ double Stepper::Impl::conserved_energy() {
     if (!solve(scene, 0, node, work)) fail(FlightOutcome::not_converged);
   }
   const Arc& arc = work.arc;
-  const ArcProblem problem{arc.q_start, node.p, arc.tau, nullptr, scene.whole_step(),
-                           node.t - arc.tau};
+  const ArcProblem problem{arc.q_start,        node.p,          arc.tau, nullptr,
+                           scene.whole_step(), node.t - arc.tau};
   return arc_energy(scene.model, problem, arc, work.scratch);
 }
 
