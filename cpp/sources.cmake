@@ -33,6 +33,8 @@ set(SALTUS_SOURCES
   # force
   cpp/src/force/force_function.cpp
   cpp/src/force/force_model.cpp
+  # constraint
+  cpp/src/constraint/equality.cpp
   # collision
   cpp/src/collision/shapes/box.cpp
   cpp/src/collision/shapes/capsule.cpp
@@ -80,6 +82,8 @@ set(SALTUS_SOURCES
   cpp/src/model/force_verbs.cpp
   cpp/src/model/joint_forces.cpp
   cpp/src/model/frames.cpp
+  cpp/src/model/close_loops.cpp
+  cpp/src/model/loops.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp
   cpp/src/model/merge.cpp
@@ -87,9 +91,11 @@ set(SALTUS_SOURCES
   cpp/src/model/model.cpp
   cpp/src/model/model_builder.cpp
   cpp/src/model/motion.cpp
+  cpp/src/model/named_states.cpp
   cpp/src/model/pairs.cpp
   cpp/src/model/point_forces.cpp
   cpp/src/model/scene.cpp
+  cpp/src/model/sensors.cpp
   cpp/src/model/shape_checks.cpp
   cpp/src/model/solids.cpp
   cpp/src/model/spring_verbs.cpp
@@ -114,12 +120,15 @@ set(SALTUS_SOURCES
   cpp/src/variational/overlap/overlap.cpp
   cpp/src/variational/node/contact_vector.cpp
   cpp/src/variational/node/delassus.cpp
+  cpp/src/variational/node/equalities.cpp
+  cpp/src/variational/node/equality_solver.cpp
   cpp/src/variational/node/contacts.cpp
   cpp/src/variational/node/node.cpp
   cpp/src/variational/node/pair_pool.cpp
   cpp/src/variational/node/scene.cpp
   cpp/src/variational/arc/arc.cpp
   cpp/src/variational/arc/arc_forces.cpp
+  cpp/src/variational/arc/arc_loops.cpp
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
   cpp/src/variational/arc/finish.cpp
@@ -163,6 +172,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/geometry.cpp
   cpp/src/urdf/joint_elements.cpp
   cpp/src/urdf/load_urdf.cpp
+  cpp/src/urdf/loops.cpp
   cpp/src/urdf/mesh_checks.cpp
   cpp/src/urdf/mesh_file.cpp
   cpp/src/urdf/mesh_path.cpp
@@ -175,6 +185,7 @@ set(SALTUS_SOURCES
   cpp/src/urdf/shape_inertias.cpp
   cpp/src/urdf/source.cpp
   cpp/src/urdf/srdf.cpp
+  cpp/src/urdf/srdf_states.cpp
   cpp/src/urdf/tree_checks.cpp
   cpp/src/urdf/visuals.cpp
   cpp/src/urdf/warnings.cpp
@@ -199,11 +210,16 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_model.cpp
   python/bindings/bind_model_builder.cpp
   python/bindings/bind_forces.cpp
+  python/bindings/bind_loops.cpp
   python/bindings/bind_motion.cpp
   python/bindings/bind_springs.cpp
   python/bindings/bind_visuals.cpp
+  python/bindings/bind_named_states.cpp
+  python/bindings/bind_sensors.cpp
+  python/bindings/bind_descriptions.cpp
   python/bindings/functions.cpp
   python/bindings/pickle.cpp
+  python/bindings/plain.cpp
   # urdf
   python/bindings/bind_urdf.cpp
   # variational

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "bindings.hpp"
+#include "saltus/model/named_state.hpp"
 #include "saltus/spatial/rotation.hpp"
 
 namespace saltus::bindings {
@@ -203,8 +204,15 @@ VecX from_array(const py::object& x, const std::string& what, int n) {
 
 }  // namespace
 
+std::vector<double> numbers_in(const py::handle& x, const std::string& entry) {
+  std::vector<double> numbers;
+  append_numbers(x, entry, numbers);
+  return numbers;
+}
+
 VecX to_vector(const Coordinates& x, const Model& model, const char* what) {
   if (x.value.is_none()) return model.neutral();
+  if (py::isinstance<py::str>(x.value)) return named_q(model, to_text(x.value));
   if (py::hasattr(x.value, "items")) {
     const VecX q = from_mapping(x.value, model, what, numbers_of_q(model), model.neutral());
     return model.checked_q(q, what);
@@ -215,6 +223,7 @@ VecX to_vector(const Coordinates& x, const Model& model, const char* what) {
 VecX to_vector(const Velocities& x, const Model& model, const char* what) {
   const VecX zero = VecX::Zero(model.n_v());
   if (x.value.is_none()) return zero;
+  if (py::isinstance<py::str>(x.value)) return named_v(model, to_text(x.value));
   const bool is_mapping = py::hasattr(x.value, "items");
   const VecX v = is_mapping ? from_mapping(x.value, model, what, numbers_of_v(model), zero)
                             : from_array(x.value, what, model.n_v());

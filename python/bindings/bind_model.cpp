@@ -215,22 +215,10 @@ void bind_contact_properties(py::module_& m) {
       .def(pickle_fields<P, &P::restitution, &P::friction>());
 }
 
-/// A model goes to another process as what it is built of, and is built there: the same bits.
 void bind_copies(py::class_<Model>& c) {
-  c.def("__copy__", [](const Model& m) { return m; })
-      .def(
-          "__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"))
-      .def(
-          "_moving_parts", [](const Model& m) { return moving_parts(*m->description); },
-          "What moves as the model was built of it, to compare models by.")
-      .def(py::pickle(
-          [](const Model& m) {
-            return py::make_tuple(to_tuple(*m->description), !m->pairs.empty());
-          },
-          [](const py::tuple& t) {
-            const Model whole = ModelBuilder(to_description(t[0])).build();
-            return t[1].cast<bool>() ? whole : whole.without_collisions();
-          }));
+  c.def("__copy__", [](const Model& m) {
+     return m;
+   }).def("__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"));
 }
 
 }  // namespace
@@ -238,21 +226,28 @@ void bind_copies(py::class_<Model>& c) {
 void bind_model(py::module_& m) {
   bind_contact_properties(m);
   bind_joint_effects(m);
+  bind_loop_types(m);
   bind_state(m);
   bind_parts(m);
   bind_links(m);
   bind_tree_solution(m);
   bind_gaps(m);
   bind_visuals(m);
+  bind_sensors(m);
   py::class_<Model> c(m, "Model", docs::model);
   bind_lists(c);
   bind_copies(c);
+  bind_descriptions(c, m);
+  bind_model_sensors(c);
   bind_configurations(c);
   bind_model_forces(c);
+  bind_model_loops(c, m);
   c.def(
        "state",
        [](const Model& model, const Coordinates& q, const Velocities& v, double t) {
-         return model.state(to_vector(q, model), to_vector(v, model), t);
+         const bool is_named = py::isinstance<py::str>(q.value) && v.value.is_none();
+         return model.state(to_vector(q, model),
+                            to_vector(is_named ? Velocities{q.value} : v, model), t);
        },
        docs::model_state, py::arg("q") = py::none(), py::arg("v") = py::none(), py::arg("t") = 0.0)
       .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))

@@ -162,6 +162,9 @@ void bind_model_builder(py::module_& m) {
   bind_springs(c);
   bind_check_derivatives(m);
   bind_changes(c, m);
+  bind_add_loops(c);
+  bind_named_states(c);
+  bind_add_sensor(c);
   c.def("set_gravity", &ModelBuilder::set_gravity, self, docs::set_gravity, py::arg("gravity"))
       .def(
           "set_solver",

@@ -65,6 +65,9 @@ contacts : list of ContactImpulse
 work : dict of str to float
     [J] done on the model in the step: by each actuator, by "damping" of joints and dampers, by dry
     "friction", and by "applied" forces, those that are functions included.
+loops : dict of str to numpy.ndarray
+    [N s | N m s] what each loop pushed in the step, by its rows (`Model.loop_gaps`), without
+    impacts; divided by the step `h` it is the mean force on its end a.
 )";
 
 constexpr auto contact_doc =
@@ -189,6 +192,7 @@ void bind_step_report(py::module_& m) {
       .def_readonly("contacts", &R::contacts)
       .def_readonly("fallbacks", &R::fallbacks)
       .def_readonly("work", &R::work)
+      .def_readonly("loops", &R::loops)
       .def("__repr__", [](const R& self) {
         return "StepReport(iterations=" + std::to_string(self.iterations) +
                ", arcs=" + std::to_string(self.arcs) +
@@ -199,8 +203,8 @@ void bind_step_report(py::module_& m) {
 }  // namespace
 
 NamedReport with_names(const Model& model, const StepReport& r) {
-  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual,
-                  {},           {},     {},          {},         {}};
+  NamedReport out{r.iterations, r.arcs, r.sustained, r.residual, r.friction_residual,    {},
+                  {},           {},     {},          {},         by_loop(model, r.loops)};
   std::vector<std::string> sources = names_of(model->forces.actuators);
   sources.insert(sources.end(), other_sources.begin(), other_sources.end());
   for (std::size_t k = 0; k < sources.size(); ++k) {

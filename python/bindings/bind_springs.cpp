@@ -10,12 +10,6 @@ namespace {
 
 constexpr auto self = py::return_value_policy::reference_internal;
 using B = ModelBuilder;
-using End = std::variant<LinkPoint, std::string>;
-
-LinkPoint point_of(const End& end) {
-  const auto* point = std::get_if<LinkPoint>(&end);
-  return point != nullptr ? *point : LinkPoint{std::get<std::string>(end)};
-}
 
 B& add_joint_spring(B& builder, const std::string& joint, double stiffness, double rest,
                     const std::optional<std::pair<std::vector<double>, std::vector<double>>>& curve,
@@ -45,18 +39,6 @@ void check_function(const py::object& force, const Model& model,
 }  // namespace
 
 void bind_points(py::module_& m) {
-  py::class_<LinkPoint>(m, "At", docs::at_doc)
-      .def(py::init(
-               [](const std::string& link, const Vec3& point) { return LinkPoint{link, point}; }),
-           py::arg("link"), py::arg_v("point", Vec3(Vec3::Zero()), "(0, 0, 0)"))
-      .def_readonly("link", &LinkPoint::link)
-      .def_readonly("point", &LinkPoint::point, "[m] in the link's frame")
-      .def("__repr__",
-           [](const LinkPoint& at) {
-             return "At('" + at.link + "', " +
-                    py::str(py::cast(at.point).attr("tolist")()).cast<std::string>() + ")";
-           })
-      .def(pickle_fields<LinkPoint, &LinkPoint::link, &LinkPoint::point>());
   py::class_<PythonMoment>(m, "ForceMoment", docs::force_moment)
       .def_readonly("t", &PythonMoment::t)
       .def_property_readonly(
@@ -74,9 +56,9 @@ void bind_springs(py::class_<B>& c) {
         py::arg("curve") = py::none(), py::arg("slopes") = py::none())
       .def(
           "add_spring",
-          [](B& builder, const std::string& name, const End& a, const End& b, double stiffness,
-             double length, double damping) -> B& {
-            return builder.add_spring({name, point_of(a), point_of(b), stiffness, length, damping});
+          [](B& builder, const std::string& name, const AtOrLink& a, const AtOrLink& b,
+             double stiffness, double length, double damping) -> B& {
+            return builder.add_spring({name, to_at(a), to_at(b), stiffness, length, damping});
           },
           self, docs::add_spring, py::arg("name"), py::kw_only(), py::arg("a"), py::arg("b"),
           py::arg("stiffness") = 0.0, py::arg("length") = 0.0, py::arg("damping") = 0.0)

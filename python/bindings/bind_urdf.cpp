@@ -41,7 +41,7 @@ solver : TreeSolver or str
 meshes : MeshUse or str
     What becomes of collision meshes, where the file does not say it.
 srdf : str or os.PathLike, optional
-    SRDF, a file or text: which links never collide.
+    SRDF, a file or text: which links never collide, and states by name.
 contact : ContactProperties, optional
     The default contact, in place of the file's own.
 floor : bool

@@ -33,12 +33,20 @@ void bind_visuals(py::module_& m);  ///< called by bind_model
 void bind_model_builder(py::module_& m);
 void bind_joint_effects(py::module_& m);                         ///< called by bind_model
 void bind_model_forces(py::class_<Model>& c);                    ///< likewise
+void bind_loop_types(py::module_& m);                            ///< likewise
+void bind_model_loops(py::class_<Model>& c, py::module_& m);     ///< likewise
+void bind_add_loops(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_actuators(py::class_<ModelBuilder>& c);                ///< called by bind_model_builder
 void bind_joint_forces(py::class_<ModelBuilder>& c);             ///< likewise
 void bind_springs(py::class_<ModelBuilder>& c);                  ///< likewise
 void bind_points(py::module_& m);                                ///< likewise
 void bind_check_derivatives(py::module_& m);                     ///< likewise
 void bind_changes(py::class_<ModelBuilder>& c, py::module_& m);  ///< called by bind_model_builder
+void bind_named_states(py::class_<ModelBuilder>& c);             ///< likewise
+void bind_add_sensor(py::class_<ModelBuilder>& c);               ///< likewise
+void bind_sensors(py::module_& m);                               ///< called by bind_model
+void bind_model_sensors(py::class_<Model>& c);                   ///< likewise
+void bind_descriptions(py::class_<Model>& c, py::module_& m);    ///< likewise
 void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
@@ -53,7 +61,7 @@ void bind_batch(py::module_& m);
 void explain_errors(const py::module_& m);
 
 /// What a user gives for q: names and values (others as in Model::neutral), where a joint's name
-/// stands for all of its numbers; an array (n_q); or None.
+/// stands for all of its numbers; the name of a state; an array (n_q); or None.
 struct Coordinates {
   static constexpr auto type_name = py::detail::const_name(
       "collections.abc.Mapping[str, object] | numpy.typing.ArrayLike | None");
@@ -71,6 +79,10 @@ struct Velocities {
 /// @throws ModelError on a name that the model has not, and on what are no numbers or too many.
 VecX to_vector(const Coordinates& x, const Model& model, const char* what = "q");
 VecX to_vector(const Velocities& x, const Model& model, const char* what = "v");
+
+/// The numbers of a value: one, a sequence, a Pose (x y z, x y z w), a Rotation.
+/// @throws ModelError on what are none; `entry` names the value.
+std::vector<double> numbers_in(const py::handle& x, const std::string& entry);
 
 /// What a user gives for e or mu: one number for all contacts, or one for each.
 struct PerContact {
@@ -108,6 +120,13 @@ struct Choice {
       py::detail::make_caster<Enum>::name + py::detail::const_name(" | str");
   py::object value;
 };
+
+/// Where something is attached: a frame on a link, or a link for its own frame.
+using AtOrLink = std::variant<At, std::string>;
+At to_at(const AtOrLink& where);
+
+/// Rows of loops by name, for reports.
+std::map<std::string, VecX> by_loop(const Model& model, const VecX& rows);
 
 /// The member of `kind` that `x` is or names; `what` names the argument in messages.
 /// @throws ModelError on a name that no member has, TypeError on what is neither.

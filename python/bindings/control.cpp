@@ -102,12 +102,13 @@ class PythonPolicy {
   PythonPolicy(const py::object& function, Model model)
       : function_(function), model_(std::move(model)) {}
 
-  void operator()(const Moment& now, ForceInput& input) const {
+  void operator()(const Moment& now, ForceInput& input) {
     const py::gil_scoped_acquire acquire;
     const py::object moment =
         py::module_::import("saltus.runs.moment")
             .attr("Moment")(now.state, read_only(py::cast(now.v)), model_, input.control,
-                            with_names(model_, now.report), now.step);
+                            with_names(model_, now.report), now.step, before());
+    before_ = Before{now.state, now.v, now.step};
     const py::object answer = function_(moment);
     if (answer.is_none()) return;
     input.control = to_control(answer, model_);
@@ -115,7 +116,18 @@ class PythonPolicy {
 
  private:
   py::handle function_;  // copied without the interpreter's lock; the caller keeps it alive
+  struct Before {
+    State state;
+    VecX v;
+    long step;
+  };
+  py::object before() const {
+    if (!before_) return py::none();
+    return py::make_tuple(before_->state, read_only(py::cast(before_->v)), before_->step);
+  }
+
   Model model_;
+  std::optional<Before> before_;  ///< when it was asked before
 };
 
 }  // namespace
@@ -165,7 +177,7 @@ Policy to_policy(const py::object& control, const Wrenches& forces, const Veloci
   }
   const ForceInput start = to_input(first, forces, qfrc, model);
   if (!policy && !start.acts() && start.control.size() == 0) return {};
-  return [policy, start](const Moment& now, ForceInput& input) {
+  return [policy, start](const Moment& now, ForceInput& input) mutable {
     if (now.step == 0) input = start;
     if (policy) policy(now, input);
   };

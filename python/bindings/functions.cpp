@@ -82,6 +82,20 @@ ForceFunction to_force_function(const std::string& name, const py::object& funct
   };
 }
 
+std::function<PrescribedMotion(double)> to_motion(const std::string& joint,
+                                                  const py::object& function) {
+  const Shared shared = share(function, "prescribed motion of joint \"" + joint + "\"");
+  return [shared, joint](double t) {
+    const py::gil_scoped_acquire acquire;
+    const VecX x = to_vector((*shared)(t), "prescribed motion", joint, "its value and rate");
+    if (x.size() == 2 && x.allFinite()) return PrescribedMotion{x[0], x[1]};
+    throw ModelError("the prescribed motion of joint \"" + joint + "\" returned " +
+                         std::to_string(x.size()) + " numbers at t = " + std::to_string(t) +
+                         " s; it returns two that are finite, the displacement and its rate",
+                     "joint", joint);
+  };
+}
+
 PotentialFunction to_potential(const std::string& name, const py::object& value,
                                const py::object& gradient, const py::object& hessian) {
   const std::string of = " of potential \"" + name + "\"";

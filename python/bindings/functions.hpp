@@ -14,6 +14,10 @@ struct PythonMoment {
 /// A function(now) that returns Q, or (Q, Q_q, Q_v).
 ForceFunction to_force_function(const std::string& name, const py::object& function);
 
+/// A function(t) that returns the displacement of a joint and its rate.
+std::function<PrescribedMotion(double)> to_motion(const std::string& joint,
+                                                  const py::object& function);
+
 /// Of functions of q.
 PotentialFunction to_potential(const std::string& name, const py::object& value,
                                const py::object& gradient, const py::object& hessian);

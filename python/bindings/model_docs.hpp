@@ -53,10 +53,12 @@ constexpr auto model_state = R"(The state with these coordinates and velocities,
 
 Parameters
 ----------
-q : array_like, shape (n_q,), or mapping of names to values
-    [rad | m]; coordinates that are not named are as in `neutral`.
+q : array_like, shape (n_q,), or mapping of names to values, or str
+    [rad | m]; coordinates that are not named are as in `neutral`. The name of a state that the
+    model has, `state_names`, stands for its coordinates, here and in all functions that take q.
 v : array_like, shape (n_v,), or mapping of names to values
-    [rad/s | m/s]; of free and ball joints in the parent's axes.
+    [rad/s | m/s]; of free and ball joints in the parent's axes. None: 0, or those of the named
+    state.
 t : float
     [s]
 

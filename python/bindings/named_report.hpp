@@ -39,6 +39,7 @@ struct NamedReport {
   std::vector<NamedContact> contacts;
   std::vector<std::tuple<double, double, std::string, double, std::string>> fallbacks;
   std::map<std::string, double> work;
+  std::map<std::string, VecX> loops;
 };
 
 NamedReport with_names(const Model& model, const StepReport& report);

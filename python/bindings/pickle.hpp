@@ -36,11 +36,11 @@ Hull to_hull(const py::tuple& tuple);
 /// by their base class, at which pybind11 ends the interpreter.
 void use_one_protocol(const py::module_& m);
 
-py::tuple to_tuple(const ModelDescription& description);
+/// All fields by name, as plain.hpp has them; visuals' and shapes' points as arrays.
+py::dict to_plain(const ModelDescription& description);
 
-/// Of that all that moves: links, joints, actuators, springs, and the names of functions.
-py::tuple moving_parts(const ModelDescription& description);
-
-ModelDescription to_description(const py::tuple& tuple);
+/// @throws ModelError on what is not as to_plain makes it, with its place, and on what
+/// ModelBuilder's checks refuse.
+ModelDescription to_description(const py::dict& plain, int version);
 
 }  // namespace saltus::bindings

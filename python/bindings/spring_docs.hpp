@@ -3,15 +3,6 @@
 
 namespace saltus::bindings::docs {
 
-constexpr auto at_doc = R"(A point of a link.
-
-Parameters
-----------
-link : str
-point : array_like, shape (3,)
-    [m] in the link's frame.
-)";
-
 constexpr auto add_spring = R"(Adds a spring and a damper side by side between two points.
 
 With d the distance of the points, V = stiffness (d - length)^2 / 2, and the damper pulls with

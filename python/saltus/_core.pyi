@@ -12,6 +12,7 @@ import typing
 
 __all__: list[str] = [
     "AdjacentLinks",
+    "At",
     "BatchTrajectory",
     "BodyInertia",
     "Box",
@@ -25,6 +26,7 @@ __all__: list[str] = [
     "Cylinder",
     "Ellipsoid",
     "Energies",
+    "ForceMoment",
     "Frames",
     "FrictionOutcome",
     "Gap",
@@ -46,6 +48,7 @@ __all__: list[str] = [
     "JointType",
     "LagrangianPartials",
     "Link",
+    "LoopType",
     "MeshUse",
     "Mimic",
     "Model",
@@ -55,6 +58,8 @@ __all__: list[str] = [
     "Pair",
     "PlacedShape",
     "Pose",
+    "Sensor",
+    "SensorKind",
     "Sphere",
     "State",
     "StepError",
@@ -67,7 +72,9 @@ __all__: list[str] = [
     "TriangleMesh",
     "Visual",
     "Wrench",
+    "check_derivatives",
     "classify_impact",
+    "close_loops",
     "energies",
     "gap",
     "gap_table",
@@ -674,6 +681,54 @@ class Wrench:
         [N m]
         """
 
+class LoopType(enum.Enum):
+    """
+    What a loop holds of its two ends, frames on two links.
+
+    `point`: their origins are one. `weld`: their axes as well. `distance`: their origins are a fixed
+    distance apart. `on_plane`: the origin of a is on the plane through the origin of b that b's z axis
+    is normal to. `coupling`: of two joints, see `add_coupling`. `prescribed`: of one, see `set_prescribed`.
+    """
+
+    coupling = ...
+    distance = ...
+    on_plane = ...
+    point = ...
+    prescribed = ...
+    weld = ...
+
+class At:
+    """
+    A frame on a link: where a spring or a loop is attached.
+
+    Parameters
+    ----------
+    link : str
+    p : array_like, shape (3,)
+        [m] its origin in the link's frame.
+    R : array_like, shape (3, 3), optional
+        Its axes there; those of the link where not given.
+    """
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        link: str,
+        p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = (0, 0, 0),
+        R: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def R(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]: ...
+    @property
+    def link(self) -> str: ...
+    @property
+    def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m]
+        """
+
 class State:
     """
     The state of a model: a value. Keep it, compare it, go back to it.
@@ -702,7 +757,7 @@ class State:
         p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
-    def __repr__(self) -> str: ...
+    def __repr__(self): ...
     def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def p(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -1074,6 +1129,69 @@ class Visual:
         a TriangleMesh, or one of the classes of `Shape`
         """
 
+class SensorKind(enum.Enum):
+    """
+    What a sensor measures; names are MuJoCo's where it has one.
+
+    jointpos, jointvel
+        [rad | m], [rad/s | m/s] of a joint: one number, or all of a joint of several.
+    actuatorfrc
+        [N m | N] what an actuator pushes with, after its limits.
+    framepos, framequat
+        [m] where a point of a link is, in the world; how its frame is turned, x y z w.
+    framelinvel, frameangvel
+        [m/s], [rad/s] of that frame, in the world's axes.
+    velocimeter, gyro
+        The same in the frame's own axes.
+    accelerometer
+        [m/s^2] acceleration of the point less gravity, in the frame's own axes.
+    touch
+        [N] sum of the normal forces on a link.
+    contactforce
+        [N] sum of the contact forces on a link, friction included, in the world's axes.
+    """
+
+    accelerometer = ...
+    actuatorfrc = ...
+    contactforce = ...
+    frameangvel = ...
+    framelinvel = ...
+    framepos = ...
+    framequat = ...
+    gyro = ...
+    jointpos = ...
+    jointvel = ...
+    touch = ...
+    velocimeter = ...
+
+class Sensor:
+    """
+    What a model measures by name; made by `ModelBuilder.add_sensor`.
+    """
+    def __getstate__(self) -> tuple: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def X(self) -> Pose:
+        """
+        Pose in the link's frame
+        """
+    @property
+    def kind(self) -> SensorKind: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def of(self) -> str:
+        """
+        the joint, the actuator, or the link that carries it
+        """
+    @property
+    def other(self) -> str:
+        """
+        whose contacts count, "": all
+        """
+
 class Model:
     """
     A tree of rigid bodies: frozen, checked, cheap to copy.
@@ -1084,16 +1202,26 @@ class Model:
     joint with several numbers stands for all of them: `q={"base": Pose(...)}`, or a position and a
     quaternion, or a SciPy Rotation; `v={"base": ((1, 0, 0), (0, 0, 5))}`.
     """
+    @staticmethod
+    def _of_description(
+        description: dict,
+        *,
+        collisions: bool = True,
+        version: typing.SupportsInt | typing.SupportsIndex = 1,
+    ) -> Model:
+        """
+        The model of `_description`; ModelError with the place of what is wrong in it.
+        """
     def __copy__(self) -> Model: ...
     def __deepcopy__(self, memo: typing.Any) -> Model: ...
-    def __getstate__(self) -> tuple[tuple, bool]: ...
+    def __getstate__(self) -> tuple: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
-    def _moving_parts(self) -> tuple:
+    def _description(self) -> dict:
         """
-        Links, joints and actuators as the model was built of them, to compare models by.
+        All that the model is built of, as plain data: dicts by name, lists, numbers, arrays.
         """
     def _repr_html_(self) -> str: ...
     def accelerations(
@@ -1109,8 +1237,9 @@ class Model:
         """
         Accelerations: forward dynamics.
 
-        Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of joints' springs, c the forces of
-        motion alone. Contacts, limits, damping, friction and motors do not act. O(n) for deep trees.
+        Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of springs and potentials, c the forces
+        of motion alone. Contacts, limits, damping, friction, motors and forces that are functions do not
+        act. O(n) for deep trees.
 
         Parameters
         ----------
@@ -1132,6 +1261,33 @@ class Model:
             On an unknown name, a wrong shape, or a value that is not finite.
         StepError
             Where the mass matrix is singular.
+        """
+    def actuator_forces(
+        self,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        v: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+        control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        What actuators push with, after their limits and the joints'.
+
+        Parameters
+        ----------
+        q : array_like, shape (rows, n_q)
+            [rad | m]
+        v : array_like, shape (rows, n_v)
+            [rad/s | m/s]
+        control : array_like, shape (rows, n_u)
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows, n_u)
+            [N m | N] of each actuator, before its gear.
+
+        Raises
+        ------
+        ModelError
+            On shapes that do not fit.
         """
     def all_poses(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -1278,8 +1434,8 @@ class Model:
         """
         What gravity does to the coordinates.
 
-        Holding the model still takes the opposite; where joints have springs `inverse_dynamics(q)` has
-        theirs, too.
+        What is compensated of it (`set_gravity_compensation`) is left out. Holding the model still takes
+        the opposite; where there are springs or potentials `inverse_dynamics(q)` has theirs, too.
 
         Parameters
         ----------
@@ -1331,8 +1487,8 @@ class Model:
         """
         Forces that make given accelerations: inverse dynamics.
 
-        M(q) a + c(q, v) - gravity_forces(q) less those of joints' springs, by the recursion of Newton and
-        Euler, O(n). At rest and without acceleration they are what holds the model up.
+        M(q) a + c(q, v) - gravity_forces(q) less those of springs and potentials, by the recursion of
+        Newton and Euler, O(n). At rest and without acceleration they are what holds the model up.
 
         Parameters
         ----------
@@ -1402,6 +1558,7 @@ class Model:
         """
         L = T - V and all its first and second partials.
 
+        V is that of gravity, less what is compensated, of springs, and of potentials that are functions.
         Partials by q are along velocities, of shape (n_v,). Of a ball they are along turns exp(eta) R about
         its parent's axes, with the angular velocity in these axes held: `L_q` is no force then (the torque
         is L_q + w x L_v), and `L_qq` is not symmetric within a ball.
@@ -1425,6 +1582,26 @@ class Model:
     def link(self, name: str) -> Link:
         """
         The Link of this name; ModelError with the names there are.
+        """
+    def loop_gaps(
+        self,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> dict[str, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
+        """
+        How far each loop is open.
+
+        Parameters
+        ----------
+        q : array_like, shape (n_q,), or mapping
+        t : float
+            [s] of prescribed motions.
+
+        Returns
+        -------
+        dict of str to numpy.ndarray
+            By loop, [m]; of a weld three of the position and three of the orientation (twice the vector of
+            the quaternion: [rad] where small).
         """
     def mass_matrix(
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
@@ -1554,7 +1731,7 @@ class Model:
         self, q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None
     ) -> float:
         """
-        [J] of gravity, zero at the world's origin.
+        [J] of gravity, zero at the world's origin, and of springs and potentials.
         """
     def random_configuration(
         self, random: typing.Any = None
@@ -1602,10 +1779,12 @@ class Model:
 
         Parameters
         ----------
-        q : array_like, shape (n_q,), or mapping of names to values
-            [rad | m]; coordinates that are not named are as in `neutral`.
+        q : array_like, shape (n_q,), or mapping of names to values, or str
+            [rad | m]; coordinates that are not named are as in `neutral`. The name of a state that the
+            model has, `state_names`, stands for its coordinates, here and in all functions that take q.
         v : array_like, shape (n_v,), or mapping of names to values
-            [rad/s | m/s]; of free and ball joints in the parent's axes.
+            [rad/s | m/s]; of free and ball joints in the parent's axes. None: 0, or those of the named
+            state.
         t : float
             [s]
 
@@ -1721,6 +1900,11 @@ class Model:
     @property
     def links(self) -> list[Link]: ...
     @property
+    def loop_names(self) -> list[str]:
+        """
+        names of the loops and couplings, in the order of their rows
+        """
+    @property
     def n_pairs(self) -> int:
         """
         number of pairs
@@ -1753,6 +1937,13 @@ class Model:
         a list of the pairs; at most 10^6 of them
         """
     @property
+    def sensor_names(self) -> list[str]: ...
+    @property
+    def sensors(self) -> list[Sensor]:
+        """
+        what it measures by name, see `ModelBuilder.add_sensor`
+        """
+    @property
     def shapes(self) -> list[PlacedShape]: ...
     @property
     def solvers(self) -> list[TreeSolution]:
@@ -1763,6 +1954,11 @@ class Model:
     def source(self) -> str:
         """
         the URDF text it was read from, "" for a model built in code
+        """
+    @property
+    def state_names(self) -> list[str]:
+        """
+        of states that `state` gives by name, see `ModelBuilder.add_state`
         """
     @property
     def velocity_names(self) -> list[str]: ...
@@ -1799,6 +1995,33 @@ class AdjacentLinks(enum.Enum):
 
     excluded = ...
     watched = ...
+
+class ForceMoment:
+    """
+    When and where a force is asked for: the middle of an arc.
+
+    Attributes
+    ----------
+    t : float
+        [s]
+    q : numpy.ndarray, shape (n_q,)
+    v : numpy.ndarray, shape (n_v,)
+        Read-only, both.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        shape (n_q,)
+        """
+    @property
+    def t(self) -> float: ...
+    @property
+    def v(self) -> numpy.ndarray:
+        """
+        shape (n_v,)
+        """
 
 class ModelBuilder:
     """
@@ -1948,6 +2171,30 @@ class ModelBuilder:
         ----------
         link_a, link_b : str
         """
+    def add_coupling(
+        self,
+        joint: str,
+        *,
+        of: str,
+        polynomial: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> ModelBuilder:
+        """
+        Makes the displacement of a joint a polynomial of another's.
+
+        A joint that mimics another (`mimic`) is the same of degree 1, and costs nothing: it has no
+        coordinate. The coupling is named "<joint> coupling" where loops are listed.
+
+        Parameters
+        ----------
+        joint, of : str
+            Both of one coordinate.
+        polynomial : array_like
+            Coefficients by rising powers: (0, 1, 0.1) is x + 0.1 x^2.
+
+        Returns
+        -------
+        ModelBuilder
+        """
     def add_exclusion(self, link_a: str, link_b: str) -> ModelBuilder:
         """
         Lets two links pass through each other: no gap is watched between them.
@@ -1993,6 +2240,44 @@ class ModelBuilder:
         ModelError
             On a duplicate name, a plane that already has a half-space, and values out of their range.
             Nothing is added then.
+        """
+    def add_force(
+        self,
+        name: str,
+        function: collections.abc.Callable[[ForceMoment], typing.Any],
+        *,
+        coordinates: collections.abc.Sequence[str] = (),
+    ) -> ModelBuilder:
+        """
+        Adds a force that is a function of t, q and v.
+
+        The function is called inside each step, in the middle of each arc, several times: it must return
+        the same for the same arguments. An exception in it ends the step, whose state stays as it was. The
+        work of the force is part of `run.work["applied"]`. A model that has such a force cannot be
+        pickled, nor added to another.
+
+        Parameters
+        ----------
+        name : str
+        function : callable
+            `function(now)`, `now` a ForceMoment with t, q and v. Returns Q, an array of one number for each
+            of `coordinates`, or the tuple `(Q, Q_q, Q_v)`, the last two of shape (coordinates, n_v) or
+            None. Derivatives by q are along velocities, as in LagrangianPartials. With Q alone steps take
+            more iterations, to the same answer.
+        coordinates : sequence of str, optional
+            Names of the velocities that it pushes, of a joint of one coordinate the joint's; all by
+            default.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken; `build` on coordinates that do not exist. Steps where the function
+            returns something else, or numbers that are not finite.
         """
     def add_group_exclusion(self, group_a: str, group_b: str) -> ModelBuilder:
         """
@@ -2074,11 +2359,47 @@ class ModelBuilder:
         self,
         joint: str,
         *,
-        stiffness: typing.SupportsFloat | typing.SupportsIndex,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         rest: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        curve: tuple[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        ]
+        | None = None,
+        slopes: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"
+        ]
+        | None = None,
     ) -> ModelBuilder:
         """
-        Adds V = stiffness (q - rest)^2 / 2, [N m/rad | N/m] and [rad | m]; returns the builder.
+        Adds a spring to a joint of one coordinate, or replaces it.
+
+        Either V = stiffness (q - rest)^2 / 2, or a curve: the spring resists with `forces` at the
+        displacements `angles`, with a cubic spline between them and a line beyond its ends. V is the
+        integral of the curve from its first point, so that the joint feels minus the curve.
+
+        Parameters
+        ----------
+        joint : str
+        stiffness : float
+            [N m/rad | N/m] at least 0.
+        rest : float
+            [rad | m]
+        curve : tuple of two array_like, shape (k,), optional
+            `(angles, forces)`, [rad | m] ascending and [N m | N]; k is 2 at least.
+        slopes : tuple of two floats, optional
+            [N m/rad | N/m] of the curve at its ends. Without them the ends are natural: not bent.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a joint that does not exist or has several coordinates, numbers that are negative or not
+            finite, angles that do not ascend.
         """
     def add_link(
         self, name: str, inertia: BodyInertia = ..., *, check: InertiaCheck | str = ...
@@ -2098,6 +2419,42 @@ class ModelBuilder:
         ------
         ModelError
             On a duplicate name and on an inertia that no body can have.
+        """
+    def add_loop(
+        self,
+        name: str,
+        type: LoopType | str,
+        *,
+        a: At | str,
+        b: At | str,
+        distance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Holds two links together beyond the tree, as the last pin of a four-bar.
+
+        The loop is exact: a step ends with it closed to rounding, impacts respect it, and its forces are
+        in `Stepper.report.loops`. Loops that say the same twice share the load. No gap is watched
+        between links that a `point` or `weld` holds together. A run starts from a configuration that
+        closes all loops: `close_loops` finds one. (RATTLE, as Hairer, Lubich, Wanner, VII.1.)
+
+        Parameters
+        ----------
+        name : str
+        type : LoopType or str
+            "point", "weld", "distance" or "on_plane".
+        a, b : At or str
+            Its ends, frames on two links, or links for their own frames.
+        distance : float
+            [m] of type "distance".
+
+        Returns
+        -------
+        ModelBuilder
+
+        Raises
+        ------
+        ModelError
+            On a name that another loop has, ends on one link, and a distance that is none.
         """
     def add_motor(
         self,
@@ -2168,6 +2525,97 @@ class ModelBuilder:
         ModelError
             As `add_motor`.
         """
+    def add_potential(
+        self,
+        name: str,
+        value: collections.abc.Callable[
+            [typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]], typing.Any
+        ],
+        gradient: collections.abc.Callable[
+            [typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]], typing.Any
+        ],
+        hessian: collections.abc.Callable[
+            [typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]], typing.Any
+        ],
+    ) -> ModelBuilder:
+        """
+        Adds a potential V(q), by three functions of q.
+
+        It is part of the Lagrangian: of `lagrangian`, the energies, `inverse_dynamics`, and of steps, which
+        conserve the energy with it. The law `compensated` needs third derivatives and refuses it. A model
+        that has one cannot be pickled, nor added to another.
+
+        Parameters
+        ----------
+        name : str
+        value : callable
+            q (n_q,) to V [J].
+        gradient : callable
+            q to the derivatives of V along velocities, shape (n_v,) [N m | N].
+        hessian : callable
+            q to the derivatives of the gradient along velocities, shape (n_v, n_v).
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken. Whatever asks for the potential, where a function returns another
+            shape, or numbers that are not finite.
+        """
+    def add_sensor(
+        self,
+        name: str,
+        kind: SensorKind | str,
+        *,
+        joint: str | None = None,
+        actuator: str | None = None,
+        link: str | None = None,
+        other: str | None = None,
+        X: Pose = ...,
+    ) -> ModelBuilder:
+        """
+        Adds a sensor: `run.sensor(name)` reads it from recorded rows.
+
+        It has no part in the motion. A policy has it as `now.sensors[name]`.
+
+        Parameters
+        ----------
+        name : str
+        kind : SensorKind or str
+        joint : str, optional
+            Of jointpos and jointvel.
+        actuator : str, optional
+            Of actuatorfrc.
+        link : str, optional
+            Of all others: the link that carries it.
+        other : str, optional
+            Of touch and contactforce: the link or half-space whose contacts count; None: all.
+        X : Pose
+            Where on the link it is, and how it is turned; of touch and contactforce it has no meaning.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, and on what it is of where that does not exist or is of another kind.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.ModelBuilder()
+        >>> builder = builder.add_body("stone", saltus.Sphere(0.1), mass=1.0)
+        >>> model = builder.add_sensor("imu", "accelerometer", link="stone").build()
+        >>> model.sensors
+        [Sensor('imu', accelerometer of link 'stone')]
+        """
     def add_shape(
         self,
         link: str,
@@ -2190,6 +2638,87 @@ class ModelBuilder:
         ------
         ModelError
             On sizes that are not finite and positive, and on a half-space of a link other than the root.
+        """
+    def add_spring(
+        self,
+        name: str,
+        *,
+        a: At | str,
+        b: At | str,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        length: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        damping: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> ModelBuilder:
+        """
+        Adds a spring and a damper side by side between two points.
+
+        With d the distance of the points, V = stiffness (d - length)^2 / 2, and the damper pulls with
+        -damping dd/dt along the line between them. The spring is a potential: it is in `lagrangian`, in the
+        energies and in `inverse_dynamics`. The damper acts in steps, and its work is part of
+        `run.work["damping"]`.
+
+        Parameters
+        ----------
+        name : str
+        a, b : At or str
+            A point of a link, or a link for its origin; of two bodies.
+        stiffness : float
+            [N/m] at least 0.
+        length : float
+            [m] where the spring pulls no more. A spring of length 0 is smooth where its ends meet; of any
+            other the force has no direction there, and a step that comes to it is a StepError.
+        damping : float
+            [N s/m] at least 0.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a link that does not exist, a number that is negative or not finite, a name that is taken;
+            `build` where both points are on one body.
+        """
+    def add_state(
+        self,
+        name: str,
+        q: collections.abc.Mapping[str, typing.Any] | None = None,
+        v: collections.abc.Mapping[str, typing.Any] | None = None,
+    ) -> ModelBuilder:
+        """
+        Adds a state by name, as MuJoCo's keyframes and SRDF's group states.
+
+        `model.state("home")` gives it, and wherever a function takes `q` it takes the name.
+
+        Parameters
+        ----------
+        name : str
+        q : mapping of joints' names to values, optional
+            [rad | m] one number, or for joints of several a sequence or a Pose. Other joints are as in
+            `Model.neutral`.
+        v : mapping of joints' names to values, optional
+            [rad/s | m/s] 0 of other joints.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a name that is taken, joints that do not exist, are fixed or mimic others, values that are
+            not finite, too many, or outside of limits that act.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> builder = saltus.read_urdf(saltus.urdf_dir() / "newtons_cradle_3.urdf")
+        >>> model = builder.add_state("lifted", q={"swing_0": 0.3}).build()
+        >>> float(model.state("lifted").q[0])
+        0.3
         """
     def add_velocity_servo(
         self,
@@ -2406,6 +2935,31 @@ class ModelBuilder:
         gravity : array_like, shape (3,)
             [m/s^2]
         """
+    def set_gravity_compensation(
+        self, link: str, part: typing.SupportsFloat | typing.SupportsIndex = 1.0
+    ) -> ModelBuilder:
+        """
+        Something carries a part of a link's weight.
+
+        Gravity pulls at the rest alone: V = -(1 - part) m g.c. The inertia stays. `gravity_forces`, the
+        energies and steps have it.
+
+        Parameters
+        ----------
+        link : str
+        part : float
+            1 is all of it, 0 nothing.
+
+        Returns
+        -------
+        ModelBuilder
+            The builder itself.
+
+        Raises
+        ------
+        ModelError
+            On a link that does not exist, or a part that is not finite.
+        """
     def set_group(self, link: str, group: str) -> ModelBuilder:
         """
         Puts a link into a group; a link is in one group at most.
@@ -2456,6 +3010,38 @@ class ModelBuilder:
             The root link's material is that of its half-spaces too; `add_floor` gives a floor its own.
         material : str
             Any name.
+        """
+    def set_prescribed(
+        self,
+        joint: str,
+        times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None,
+        values: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None,
+        *,
+        function: collections.abc.Callable[[float], typing.Any] | None = None,
+    ) -> ModelBuilder:
+        """
+        Makes a joint move as it is told, whatever that takes.
+
+        The joint goes by a cubic spline through the values, whose ends are not bent and go on as lines, or
+        by a function. Its arcs go by the secant of the motion, its rate at nodes is that of the motion.
+        Impacts find it infinitely heavy. What moves it does work: part of `run.work["applied"]`. A run
+        starts where the motion is: `close_loops(model, t=t)` gives that state. The joint is named "<joint>
+        prescribed" where loops are listed.
+
+        Parameters
+        ----------
+        joint : str
+            Of one coordinate. The link that it moves may be without mass of
+            its own, where what hangs on it leaves the mass matrix regular.
+        times, values : array_like, shape (k,), optional
+            [s] ascending, [rad | m]; k is 2 at least.
+        function : callable, optional
+            function(t) returns the displacement [rad | m] and its rate. A model that has one cannot be
+            pickled, and files do not hold it.
+
+        Returns
+        -------
+        ModelBuilder
         """
     def set_solver(self, solver: TreeSolver | str) -> ModelBuilder:
         """
@@ -2605,7 +3191,7 @@ class Frames:
     [angular; linear] throughout. Not for two threads at once.
     """
     def __reduce__(self) -> tuple: ...
-    def __repr__(self) -> str: ...
+    def __repr__(self): ...
     def accelerations(
         self,
         v: collections.abc.Mapping[str, numpy.typing.ArrayLike]
@@ -2961,7 +3547,7 @@ class ImpactOutcome:
     Velocity after an impact, and the impulses that led there, in order.
     """
     def __reduce__(self) -> tuple: ...
-    def __repr__(self) -> str: ...
+    def __repr__(self): ...
     @property
     def impulses(self) -> numpy.ndarray:
         """
@@ -3228,7 +3814,11 @@ class StepReport:
     contacts : list of ContactImpulse
         Impulses that held contacts closed over the step, each pair once, without those of impacts.
     work : dict of str to float
-        [J] done on the model in the step: by each actuator, and by "damping", "friction", "applied".
+        [J] done on the model in the step: by each actuator, by "damping" of joints and dampers, by dry
+        "friction", and by "applied" forces, those that are functions included.
+    loops : dict of str to numpy.ndarray
+        [N s | N m s] what each loop pushed in the step, by its rows (`Model.loop_gaps`), without
+        impacts; divided by the step `h` it is the mean force on its end a.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -3244,6 +3834,10 @@ class StepReport:
     def impacts(self) -> list[Impact]: ...
     @property
     def iterations(self) -> int: ...
+    @property
+    def loops(
+        self,
+    ) -> dict[str, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]: ...
     @property
     def residual(self) -> float: ...
     @property
@@ -3585,6 +4179,41 @@ class BatchTrajectory:
         [J] shape (runs, rows, n_u + 3)
         """
 
+def check_derivatives(
+    force: str | collections.abc.Callable[[ForceMoment], typing.Any],
+    model: Model,
+    *,
+    coordinates: collections.abc.Sequence[str] = (),
+) -> None:
+    """
+    Compares derivatives that a user wrote with differences.
+
+    At three random configurations and rates, the same each time: Q_q and Q_v of a force, gradient and
+    Hessian of a potential, each entry against central differences of two sizes.
+
+    Parameters
+    ----------
+    force : str or callable
+        The name of a force or a potential of the model, or a function as `ModelBuilder.add_force`
+        takes it.
+    model : Model
+    coordinates : sequence of str, optional
+        Of a function, as in `ModelBuilder.add_force`.
+
+    Raises
+    ------
+    ModelError
+        Where one is wrong: names the worst entry, what the function says, what differences say, and the
+        order in which the two approach each other as differences are refined, 2 where it is right.
+        And where a force returns Q alone: there is nothing to compare.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> model = saltus.load_urdf(saltus.urdf_dir() / "arm.urdf")
+    >>> saltus.check_derivatives(lambda now: (-now.v, 0 * model.mass_matrix(now.q), None), model)
+    """
+
 def classify_impact(
     M: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
     N: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
@@ -3626,6 +4255,41 @@ def classify_impact(
     >>> import saltus
     >>> saltus.classify_impact(M=[[1, 0, 0], [0, 1, 0], [0, 0, 1]], N=[[-1, 1, 0], [0, -1, 1]])
     <ImpactCertificate: unique, A2, at most 3 impulses>
+    """
+
+def close_loops(
+    model: Model,
+    q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None,
+    v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None = None,
+    *,
+    keep: collections.abc.Sequence[str] = [],
+    t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+) -> State:
+    """
+    Finds the state nearest to a configuration that closes all loops.
+
+    Newton's method goes from q by the shortest steps in the metric of the mass matrix; velocities are
+    the nearest, in the same metric, that keep the loops closed.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (n_q,), or mapping, optional
+        Where to start: the closer, the likelier is the branch that you mean.
+    v : array_like, shape (n_v,), or mapping, optional
+    keep : list of str
+        Joints, or velocities, that stay exactly as they are in q and v.
+    t : float
+        [s] of the state, and of prescribed motions.
+
+    Returns
+    -------
+    State
+
+    Raises
+    ------
+    ModelError
+        Where no such state is found: the loop that stays open, and by how much.
     """
 
 def energies(
@@ -3774,7 +4438,7 @@ def read_urdf(
     meshes : MeshUse or str
         What becomes of collision meshes, where the file does not say it.
     srdf : str or os.PathLike, optional
-        SRDF, a file or text: which links never collide.
+        SRDF, a file or text: which links never collide, and states by name.
     contact : ContactProperties, optional
         The default contact, in place of the file's own.
     floor : bool
@@ -4166,4 +4830,5 @@ def volume(shape: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Co
         On a `HalfSpace`, which is infinite, and on a size that is not finite and positive.
     """
 
+_DESCRIPTION_VERSION: int = 1
 __version__: str = "0.1.0"

@@ -83,7 +83,8 @@ def load_urdf(
         Collision meshes are replaced by their convex hulls, or not used. The file's own setting for
         a link, `<mesh link="..." use="..."/>`, takes precedence.
     srdf : str or os.PathLike, optional
-        SRDF, a file or text: which links never collide. Half-spaces stay watched.
+        SRDF, a file or text: which links never collide, and states by name, `Model.state`.
+        Half-spaces stay watched.
     contact : ContactProperties, optional
         The default contact, in place of the file's own: restitution and friction of all pairs that
         nothing else sets.

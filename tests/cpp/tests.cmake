@@ -31,6 +31,9 @@ set(SALTUS_TEST_lagrangian
 set(SALTUS_TEST_force
   force/test_force_model.cpp
 )
+set(SALTUS_TEST_constraint
+  constraint/test_equality.cpp
+)
 set(SALTUS_TEST_collision
   collision/test_broad_phase.cpp
   collision/test_chord.cpp
@@ -57,6 +60,7 @@ set(SALTUS_TEST_model
   model/test_materials.cpp
   model/test_merge.cpp
   model/test_model.cpp
+  model/test_named_states.cpp
   model/test_pairs.cpp
   model/test_scene.cpp
   model/test_solids.cpp

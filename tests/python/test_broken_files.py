@@ -5,6 +5,7 @@ from __future__ import annotations
 import h5py
 import numpy as np
 import pytest
+from old_files import as_version_2
 from scenes import cradle_run
 
 import saltus
@@ -76,9 +77,6 @@ RUINED = [
     (attribute("law", [1, 2]), r'attribute "law" has shape \(2,\)'),
     (attribute("law", "magic"), "attribute \"law\" is 'magic'; there are nodal_energy"),
     (attribute("order", 7), 'attribute "order" is 7; there are'),
-    (attribute("root_joint", "magic"), "attribute \"root_joint\" is 'magic'; there are fixed"),
-    (attribute("gravity", "down"), "no trajectory that saltus can read"),
-    (attribute("gravity", [1.0, 2.0]), "no trajectory that saltus can read"),
     (attribute("residual", np.zeros(2)), r'attribute "residual" has shape \(2,\)'),
     (attribute("format", np.zeros(2)), 'attribute "format" has shape'),
     (attribute("format", 3), "holds no trajectory of saltus"),
@@ -104,6 +102,15 @@ RUINED = [
     (column("impacts", "law", 200), 'has 200 in column "law"'),
     (dataset("certificates", np.array(["a"], TEXTS)), 'dataset "certificates" has not as many'),
     (dataset("urdf", 3.0), 'dataset "urdf" is no text'),
+    (dataset("description", 3.0), 'group "description" is a dataset'),
+    (dataset("description/document", 3.0), 'dataset "description/document" is no text'),
+    (group("description/document"), 'dataset "description/document" is a group'),
+]
+OLD_RUINED = [
+    (attribute("root_joint", "magic"), "attribute \"root_joint\" is 'magic'; there are fixed"),
+    (attribute("gravity", "down"), "no trajectory that saltus can read"),
+    (attribute("gravity", [1.0, 2.0]), "no trajectory that saltus can read"),
+    (dataset("urdf", 3.0), 'dataset "urdf" is no text'),
     (dataset("urdf", "no URDF"), "no file|no trajectory"),
     (dataset("urdf", "<robot/>"), "no <link>"),
 ]
@@ -116,6 +123,12 @@ def test_what_is_wrong_is_named(path, ruined):
         ruin(file)
     with pytest.raises(saltus.ModelError, match=words):
         saltus.load(path)
+
+
+@pytest.mark.parametrize("ruined", OLD_RUINED, ids=[words for _, words in OLD_RUINED])
+def test_what_is_wrong_in_an_older_file_is_named(path, ruined):
+    as_version_2(path)
+    test_what_is_wrong_is_named(path, ruined)
 
 
 def test_a_table_of_other_types(path):
@@ -142,7 +155,7 @@ OLDER = {
     "velocity_names", "certificates", "settlings", "fallbacks", "urdf", "@saltus_version", "@model",
     "@order", "@certify", "@solver", "@meshes", "@floor", "@inertia", "@max_halvings", "@strict",
     "@max_impulses", "@max_iterations", "@max_impacts", "@rest", "@simultaneous", "@h",
-    "@collisions", "@effects", "control", "work", "control_names",
+    "@collisions", "@effects", "control", "work", "control_names", "description",
 }  # fmt: skip
 
 

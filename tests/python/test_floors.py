@@ -18,8 +18,9 @@ GROUND = {"error", "export"}
 FLOORS: dict[str, set[str]] = {"error": {"export"}, "export": set()}
 FLOORS["spatial"] = set(GROUND)
 FLOORS["tree"] = GROUND | {"spatial"}
-FLOORS["lagrangian"] = FLOORS["collision"] = FLOORS["force"] = GROUND | {"spatial", "tree"}
-FLOORS["model"] = FLOORS["tree"] | {"tree", "lagrangian", "collision", "force"}
+for floor in ("lagrangian", "collision", "force", "constraint"):
+    FLOORS[floor] = GROUND | {"spatial", "tree"}
+FLOORS["model"] = FLOORS["tree"] | {"tree", "lagrangian", "collision", "force", "constraint"}
 FLOORS["variational"] = FLOORS["model"] | {"model"}
 FLOORS["rollout"] = FLOORS["variational"] | {"variational"}
 FLOORS["urdf"] = FLOORS["model"] | {"model"}

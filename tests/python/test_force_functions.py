@@ -105,7 +105,9 @@ def test_wrong_forces_are_named() -> None:
         damped_by(lambda now: [0], coordinates=["knee"])
     with pytest.raises(ModelError, match='names coordinate "elbow" twice'):
         damped_by(lambda now: [0, 0], coordinates=["elbow", "elbow"])
-    with pytest.raises(TypeError, match="which is no function"):
+    with pytest.raises(
+        TypeError, match=r"add_force\(\) is given function = 3 \(int\), which is no function"
+    ):
         damped_by(3)
     with pytest.raises(TypeError, match="its force 'wind' is a function"):
         pickle.dumps(damped_by(lambda now: now.v))

@@ -77,7 +77,7 @@ def test_nothing_given_is_zero():
         (np.zeros(5), "q has 5 entries; the model has 6 coordinates"),
         (np.zeros((6, 1)), "q has shape (6, 1); it must have shape (6,)"),
         (0.3, "q has shape (); it must have shape (6,)"),
-        ("swing_0", "q is no array of numbers: could not convert string to float"),
+        ("swing_0", 'no state "swing_0"; there are none'),
         ([1, [2, 3]], "q is no array of numbers"),
         (object(), "q is no array of numbers"),
     ],

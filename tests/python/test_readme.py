@@ -7,7 +7,9 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from test_examples import PREDICTED
 from tests.conftest import ROOT
 
 import saltus
@@ -26,11 +28,16 @@ def blocks(path, language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize(
-    ("name", "language"), [("hello_cradle.py", "python"), ("hello_cradle.cpp", "cpp")]
-)
-def test_hello_is_the_file(name, language):
-    assert (ROOT / "examples" / name).read_text() in blocks(README, language)
+def test_hello_is_the_file():
+    assert (ROOT / "examples" / "hello_cradle.cpp").read_text() in blocks(README, "cpp")
+
+
+def test_first_program_of_readme_does_what_its_comments_say(tmp_path):
+    (code, _) = blocks(README, "python")
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stdout.startswith("first impact at 0.5046 s\nimpact at t = 0.504644 s: 2 impulses")
+    assert (tmp_path / "cradle.png").stat().st_size > 20_000
 
 
 def test_python_of_readme_runs(tmp_path):
@@ -49,6 +56,59 @@ def test_output_of_readme_is_what_is_printed(capsys):
     readme = README.read_text(encoding="utf-8")
     for line in lines:
         assert f"    {line}\n" in readme
+
+
+def test_numbers_of_the_examples_are_those_they_print():
+    text = README.read_text(encoding="utf-8")
+    cells = [
+        cell for line in text.splitlines() if "](examples/" in line for cell in line.split("|")
+    ]
+    said = [(cell, re.findall(r"\d+\.\d{3,}", cell)) for cell in cells]
+    checked = 0
+    for cell, numbers in said:
+        for number in numbers:
+            example = re.search(r"examples/(\w+)\.py", cell)
+            assert example, cell
+            assert any(number in line for line in PREDICTED[example[1]]), cell
+            checked += 1
+    assert checked >= 7
+
+
+def test_all_examples_are_in_readme():
+    text = README.read_text(encoding="utf-8")
+    for file in [*(ROOT / "examples").glob("*.py"), *(ROOT / "examples").glob("*.cpp")]:
+        assert f"](examples/{file.name})" in text, file.name
+
+
+def test_pictures_of_readme_are_small_and_move():
+    image = pytest.importorskip("PIL.Image")
+    folder = ROOT / "python" / "docs" / "pictures"
+    files = sorted(folder.glob("*.webp"))
+    assert sum(file.stat().st_size for file in files) < 600_000
+    assert (folder / "animation.webp").stat().st_size <= 400_000
+    for file in files:
+        used = [page for page in PAGES if f"/{file.name})" in page.read_text(encoding="utf-8")]
+        assert used, f"no page shows {file}"
+        picture = image.open(file)
+        assert picture.n_frames >= 50 if file.stem == "animation" else picture.n_frames == 1
+        assert np.asarray(picture.convert("L")).std() > 3, f"{file}: nothing is drawn"
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("browser")  # which is absent in words where it is
+def test_the_script_beside_the_pictures_makes_them(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    folder = ROOT / "python" / "docs" / "pictures"
+    names = ["first", "plot", "cradle", "tower", "incline"]
+    command = [sys.executable, folder / "make.py", "--to", tmp_path, *names]
+    subprocess.run(command, check=True, capture_output=True, text=True)
+    for name in names:
+        own, kept = (
+            np.asarray(image.open(where / f"{name}.webp").convert("L"), dtype=float)
+            for where in (tmp_path, folder)
+        )
+        assert own.shape == kept.shape, name
+        assert np.abs(own - kept).mean() < 3, f"{name}.webp is not what make.py makes now"
 
 
 def test_tests_named_in_readme_exist():
@@ -85,6 +145,14 @@ def test_dialogues_of_the_manual_go_as_printed(page, tmp_path, monkeypatch):
     said: list[str] = []
     runner.run(dialogue, out=said.append)
     assert not runner.failures, "".join(said)
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES[1:] if blocks(p, "python")], ids=by_name)
+def test_programs_of_the_manual_run(page, tmp_path):
+    code = "\n".join(blocks(page, "python"))
+    command = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_urdf_of_the_manual_loads():

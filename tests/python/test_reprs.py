@@ -123,6 +123,52 @@ def test_parts_say_what_they_are():
     assert repr(builder.joint("to_a")) == "BuilderJoint('to_a')"
 
 
+def test_parts_say_what_matters_of_them():
+    builder = robot()
+    builder.add_motor("push", joint="to_c")
+    model = builder.build()
+    of = {coordinate.name: repr(coordinate) for coordinate in model.coordinates}
+    assert of["to_a"] == "Coordinate('to_a', [rad])"
+    assert of["to_c"] == "Coordinate('to_c', [m], -1.5 to 2)"
+    assert of["base_qx"] == "Coordinate('base_qx' of 'base', [1])"
+    assert repr(model.joint("to_b").mimic) == "Mimic('to_a', multiplier=-2, offset=0.5)"
+
+
+def test_reprs_of_large_models_are_short():
+    model = cradle(500)
+    run = saltus.simulate(model, q={"swing_0": 0.3}, duration=0.51)
+    stepper, state = saltus.Stepper(model, h=0.01), run.state(49)
+    while not stepper.report.impacts:
+        state = stepper.advance(state)
+    line = np.eye(500)[1:] - np.eye(500)[:-1]
+    hit = saltus.resolve_impact(np.eye(500), line, np.eye(500)[0])
+    things = [model, run, state, model.at(), run.impact(0), stepper, stepper.report, hit]
+    for thing in things:
+        assert len(repr(thing)) < 300, type(thing)
+    assert repr(run.impact(0)) == "<saltus.Impact: t = 0.504644 s, 499 impulses on 499 contacts>"
+    assert repr(run.state(0)).startswith(
+        "State(t=0.0, q=[0.3, 0.0, 0.0, 0.0, 0.0, 0.0, ... 994 more]"
+    )
+    small = cradle_run()
+    assert (
+        repr(small.state(0))
+        == "State(t=0.0, q=[0.3, 0.0, 0.0, 0.0, 0.0, 0.0], p=" + str([0.0] * 6) + ")"
+    )
+    assert repr(small.impact(0)).startswith("Impact(t=0.5046")
+
+
+def test_info_lists_actuators_and_no_empty_columns(tmp_path):
+    path = tmp_path / "cradle.urdf"
+    path.write_text(saltus.scenes.cradle(2))
+    text = run_cli("info", path).stdout
+    assert "  name     joint    unit\n" in text
+    assert "actuators" not in text
+    urdf = (saltus.urdf_dir() / "arm.urdf").read_text()
+    motor = '<saltus><motor name="turn" joint="waist"/></saltus>'
+    path.write_text(urdf.replace("</robot>", f"{motor}</robot>"))
+    assert "actuators\n  name\n  turn\n" in run_cli("info", path).stdout
+
+
 def test_info_has_no_rows_of_zeros(tmp_path):
     path = tmp_path / "cradle.urdf"
     path.write_text(saltus.scenes.cradle(3))

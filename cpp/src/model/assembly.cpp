@@ -26,6 +26,7 @@ void Assembly::check() {
   m_.packed.dense_arcs = joining > 0 && 3 * (joining + m_.forces.n_coupled()) > m_.tree.n_v;
   check_moments();
   check_masses();
+  add_loops();
   add_shapes();
   check_visuals();
 }
@@ -38,6 +39,7 @@ Model Assembly::build() {
   m_.description = std::make_shared<const ModelDescription>(d_);
   add_pairs();
   add_limits();
+  warn_of_states();
   warn_of_unsaid_contacts();
   return Model(std::move(m_));
 }

@@ -90,10 +90,14 @@ class Assembly {
   void add_springs();        // and their dampers
   void add_compensations();  // of links' weights
   void add_functions();      // forces and potentials
-  BodyPoint body_point(const LinkPoint& point, const std::string& user,
-                       const std::string& culprit) const;
+  BodyPoint body_point(const At& point, const std::string& user, const std::string& culprit) const;
   void add_limits();
   int joint_index(const std::string& name, const std::string& user) const;
+
+  // loops.cpp
+  void add_loops();
+  int moved_frame(const std::string& joint, const std::string& user) const;
+  Equality::End end_of(const At& at, const std::string& loop) const;
 
   // filter.cpp
   void add_filter();  // exclusions of links and of groups
@@ -107,6 +111,9 @@ class Assembly {
   void warn_of_unsaid_contacts();  // of free roots that meet half-spaces
   std::vector<int> flying_links() const;
   bool is_unsaid(int i, int j) const;  // of two shapes
+
+  // named_states.cpp
+  void warn_of_states();  // of those outside of limits
 
   // visuals.cpp
   void check_visuals() const;  // their links

@@ -17,6 +17,13 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   for (std::size_t i = 1; i < d.links.size(); ++i) again.add_link(d.links[i]);
   for (const JointSpec& joint : d.joints) again.add_joint(joint);
   for (const ActuatorSpec& actuator : d.actuators) again.add_actuator(actuator);
+  for (const LoopSpec& loop : d.loops) {
+    again.add_loop(loop.name, loop.type, loop.a, loop.b, loop.distance);
+  }
+  for (const CouplingSpec& coupling : d.couplings) {
+    again.add_coupling(coupling.joint, coupling.of, coupling.polynomial);
+  }
+  for (const PrescribedSpec& spec : d.prescribed) again.set_prescribed(spec);
   for (const SpringSpec& spring : d.springs) again.add_spring(spring);
   for (const ForceSpec& force : d.forces) again.add_force(force);
   for (const PotentialFunction& potential : d.potentials) again.add_potential(potential);
@@ -35,6 +42,8 @@ ModelDescription ModelBuilder::checked(const ModelDescription& d) {
   }
   for (const auto& [link, material] : d.materials.of_link) again.set_material(link, material);
   if (d.materials.standard) again.set_default_contact(*d.materials.standard);
+  for (const StateSpec& state : d.states) again.add_state(state);
+  for (const SensorSpec& sensor : d.sensors) again.add_sensor(sensor);
   again.d_.filter = d.filter;
   again.d_.warnings = d.warnings;
   return std::move(again.d_);

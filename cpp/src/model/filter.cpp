@@ -56,6 +56,12 @@ std::vector<std::pair<int, int>> Assembly::adjacent_links() const {
       for (const int child : links) out.emplace_back(parent, child);
     }
   }
+  for (const LoopSpec& loop : d_.loops) {  // they overlap there as at a joint
+    if (loop.type != LoopType::point && loop.type != LoopType::weld) continue;
+    for (const int a : welded.at(group_[link_.at(loop.a.link)])) {
+      for (const int b : welded.at(group_[link_.at(loop.b.link)])) out.emplace_back(a, b);
+    }
+  }
   return out;
 }
 

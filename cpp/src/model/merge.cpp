@@ -51,6 +51,9 @@ std::map<std::string, std::string> merge_floors(const Pose& X_WR, ModelDescripti
              shape.contact ? shape.contact : other.materials.standard,
              "half-space " + quoted(name_of(floor)), "they are one plane: give both the same");
       if (!floor.contact) floor.contact = shape.contact;
+      for (SensorSpec& sensor : other.sensors) {
+        if (!shape.name.empty() && sensor.other == shape.name) sensor.other = name_of(floor);
+      }
       const std::string mine = material_of(ours, floor), its = material_of(other, shape);
       if (mine.empty()) floor.material = its;
       if (!mine.empty() && !its.empty() && mine != its) renamed[its] = mine;
@@ -199,6 +202,11 @@ ModelBuilder& ModelBuilder::add(ModelDescription other, const AddSpec& how) {
   append(other.links, d.links);
   append(other.joints, d.joints);
   append(other.actuators, d.actuators);
+  append(other.loops, d.loops);
+  append(other.couplings, d.couplings);
+  append(other.prescribed, d.prescribed);
+  append(other.states, d.states);
+  append(other.sensors, d.sensors);
   append(other.springs, d.springs);
   append(other.shapes, d.shapes);
   append(other.visuals, d.visuals);

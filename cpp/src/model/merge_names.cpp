@@ -32,7 +32,10 @@ std::pair<std::string, std::string> clash(const Names& ours, const Names& others
       {"half_space", find(ours.half_spaces, others.half_spaces)},
       {"group", find(ours.groups, others.groups)},
       {"actuator", find(ours.actuators, others.actuators)},
-      {"spring", find(ours.springs, others.springs)}};
+      {"spring", find(ours.springs, others.springs)},
+      {"loop", find(ours.loops, others.loops)},
+      {"state", find(ours.states, others.states)},
+      {"sensor", find(ours.sensors, others.sensors)}};
   for (const auto& each : found) {
     if (!each.second.empty()) return each;
   }
@@ -56,6 +59,21 @@ void add_prefix(const AddSpec& how, ModelDescription& d) {
   }
   for (SpringSpec& spring : d.springs) {
     for (std::string* name : {&spring.name, &spring.a.link, &spring.b.link}) rename(*name);
+  }
+  for (LoopSpec& loop : d.loops) {
+    for (std::string* name : {&loop.name, &loop.a.link, &loop.b.link}) rename(*name);
+  }
+  for (CouplingSpec& coupling : d.couplings) rename(coupling.joint), rename(coupling.of);
+  for (PrescribedSpec& spec : d.prescribed) rename(spec.joint);
+  for (StateSpec& state : d.states) {
+    rename(state.name);
+    state.q = prefixed(state.q, prefix);
+    state.v = prefixed(state.v, prefix);
+  }
+  for (SensorSpec& sensor : d.sensors) {
+    rename(sensor.name);
+    rename(sensor.of);
+    if (!sensor.other.empty()) rename(sensor.other);
   }
   for (FilterSpec::Names* pairs : {&d.filter.links, &d.filter.bodies, &d.filter.groups}) {
     for (auto& [first, second] : *pairs) rename(first), rename(second);
@@ -90,6 +108,9 @@ Names names_of(const ModelDescription& d) {
   for (const auto& [link, group] : d.filter.group_of) names.groups.insert(group);
   for (const ActuatorSpec& actuator : d.actuators) names.actuators.insert(actuator.name);
   for (const SpringSpec& spring : d.springs) names.springs.insert(spring.name);
+  for (const LoopSpec& loop : d.loops) names.loops.insert(loop.name);
+  for (const StateSpec& state : d.states) names.states.insert(state.name);
+  for (const SensorSpec& sensor : d.sensors) names.sensors.insert(sensor.name);
   return names;
 }
 

@@ -12,7 +12,8 @@ namespace saltus {
 void add_prefix(const AddSpec& how, ModelDescription& d);
 
 struct Names {
-  std::set<std::string> links, joints, half_spaces, groups, actuators, springs;
+  std::set<std::string> links, joints, half_spaces, groups, actuators, springs, loops, states,
+      sensors;
 };
 
 Names names_of(const ModelDescription& d);

@@ -5,10 +5,10 @@
 
 namespace saltus {
 
-BodyPoint Assembly::body_point(const LinkPoint& point, const std::string& user,
+BodyPoint Assembly::body_point(const At& point, const std::string& user,
                                const std::string& culprit) const {
   const int link = link_index(point.link, user, "spring", culprit);
-  return {place_[link].joint, place_[link].X_JF * point.point};
+  return {place_[link].joint, place_[link].X_JF * point.X_LA.p};
 }
 
 void Assembly::add_springs() {

@@ -65,8 +65,8 @@ void check_spring(const SpringSpec& spring) {
   check(spring.stiffness, "stiffness");
   check(spring.length, "length");
   check(spring.damping, "damping");
-  for (const LinkPoint* end : {&spring.a, &spring.b}) {
-    if (end->point.allFinite()) continue;
+  for (const At* end : {&spring.a, &spring.b}) {
+    if (end->X_LA.p.allFinite()) continue;
     fail("spring", spring.name,
          "is fixed to a point of link " + quoted(end->link) + " that is not finite");
   }
@@ -75,7 +75,7 @@ void check_spring(const SpringSpec& spring) {
 ModelBuilder& ModelBuilder::add_spring(const SpringSpec& spring) {
   check_new(d_.springs, "spring", spring.name);
   check_spring(spring);
-  for (const LinkPoint* end : {&spring.a, &spring.b}) {
+  for (const At* end : {&spring.a, &spring.b}) {
     named(d_.links, "link", end->link, "spring " + quoted(spring.name) + " asks for it; links");
   }
   d_.springs.push_back(spring);

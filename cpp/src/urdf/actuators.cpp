@@ -100,12 +100,9 @@ bool add_force_element(const Document& document, const XMLElement& e, ModelBuild
         builder.set_limit_restitution(name, number(e, "limit_restitution", 0));
       }
     } else if (kind == "spring") {
-      builder.add_spring({name,
-                          {attribute(e, "link1"), vector(e, "xyz1", Vec3::Zero())},
-                          {attribute(e, "link2"), vector(e, "xyz2", Vec3::Zero())},
-                          number(e, "stiffness", 0),
-                          number(e, "length", 0),
-                          number(e, "damping", 0)});
+      builder.add_spring({name, end_on(e, "link1", "xyz1", "rpy1"),
+                          end_on(e, "link2", "xyz2", "rpy2"), number(e, "stiffness", 0),
+                          number(e, "length", 0), number(e, "damping", 0)});
     } else if (kind == "gravity_compensation") {
       builder.set_gravity_compensation(attribute(e, "link"), number(e, "part", 1));
     } else {

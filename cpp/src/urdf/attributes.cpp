@@ -24,4 +24,10 @@ Pose origin(const XMLElement& element) {
           vector(*origin, "xyz", Vec3::Zero())};
 }
 
+At end_on(const XMLElement& element, const char* link, const char* xyz, const char* rpy) {
+  const Vec3 angles = vector(element, rpy, Vec3::Zero());
+  return {attribute(element, link),
+          {rotation_from_rpy(angles[0], angles[1], angles[2]), vector(element, xyz, Vec3::Zero())}};
+}
+
 }  // namespace saltus::reader

@@ -5,6 +5,7 @@
 
 #include "urdf/actuators.hpp"
 #include "urdf/attributes.hpp"
+#include "urdf/loops.hpp"
 #include "urdf/numbers.hpp"
 #include "urdf/shape_elements.hpp"
 
@@ -174,7 +175,7 @@ void add(const Document& document, const XMLElement& element, NamesOf& of, Model
     }
   } else if (kind == "contact") {
     set_contact(document, element, builder);
-  } else {
+  } else if (!add_loop_element(document, element, builder)) {
     add_force_element(document, element, builder);
   }
 }

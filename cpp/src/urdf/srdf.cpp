@@ -7,6 +7,19 @@
 #include "saltus/model/model.hpp"
 
 namespace saltus::reader {
+
+std::string given(const Document& document, const XMLElement& element, const char* name) {
+  const std::string value = attribute(element, name);
+  if (has_xacro(value)) {
+    document.fail(element, {element.Name(), ""},
+                  "has " + std::string(name) + "=" + in_quotes(value) + ": " + xacro_expression);
+  }
+  if (value.empty()) {
+    document.fail(element, {element.Name(), ""}, "is without attribute " + in_quotes(name));
+  }
+  return value;
+}
+
 namespace {
 
 using LinkPairs = std::set<std::pair<std::string, std::string>>;  // the lesser name first
@@ -18,12 +31,14 @@ class Srdf {
     check_expanded(document_.robot());
   }
 
+  const Document& document() const { return document_; }
+
   /// As MoveIt has it: what is disabled by name is disabled, whatever is enabled.
   LinkPairs excluded() {
     LinkPairs pairs = named("disable_collisions");
     const LinkPairs enabled = named("enable_collisions");
     for (const XMLElement* e : document_.all("disable_default_collisions")) {
-      const std::string link = given(*e, "link");
+      const std::string link = given(document_, *e, "link");
       if (!is_known(*e, link)) continue;
       for (const std::string& other : urdf_.names("link")) {
         const std::pair<std::string, std::string> pair = std::minmax(link, other);
@@ -53,18 +68,6 @@ class Srdf {
     }
   }
 
-  std::string given(const XMLElement& element, const char* name) const {
-    const std::string value = attribute(element, name);
-    if (has_xacro(value)) {
-      document_.fail(element, {element.Name(), ""},
-                     "has " + std::string(name) + "=" + in_quotes(value) + ": " + xacro_expression);
-    }
-    if (value.empty()) {
-      document_.fail(element, {element.Name(), ""}, "is without attribute " + in_quotes(name));
-    }
-    return value;
-  }
-
   bool is_known(const XMLElement& element, const std::string& link) {
     if (urdf_.find("link", link) != nullptr) return true;
     if (unknown_.empty()) {
@@ -79,7 +82,7 @@ class Srdf {
   LinkPairs named(const char* element) {
     LinkPairs pairs;
     for (const XMLElement* e : document_.all(element)) {
-      const std::string a = given(*e, "link1"), b = given(*e, "link2");
+      const std::string a = given(document_, *e, "link1"), b = given(document_, *e, "link2");
       const bool a_known = is_known(*e, a), b_known = is_known(*e, b);
       if (a_known && b_known) pairs.insert(std::minmax(a, b));
     }
@@ -103,6 +106,7 @@ void add_srdf(const std::string& path_or_text, const Document& urdf, bool strict
   for (const auto& [a, b] : srdf.excluded()) builder.add_body_exclusion(a, b);
   const std::string warning = srdf.warning();
   if (!warning.empty()) builder.add_warning(warning);
+  add_group_states(srdf.document(), strict, builder);
 }
 
 }  // namespace saltus::reader

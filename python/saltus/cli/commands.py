@@ -12,9 +12,9 @@ from pathlib import Path
 import saltus
 from saltus.plots.figure import new_figure
 from saltus.records.impacts import count_line
+from saltus.records.pairs import pair_name
 from saltus.records.replace import check_folder, check_target
 from saltus.records.tables import counted
-from saltus.view.scene import pair_name
 
 MOST_IMPACTS = 12  # lines of the table of impacts
 MOST_IMPULSES = 4  # impulses on a line of it
@@ -90,7 +90,7 @@ def simulate(chosen: argparse.Namespace) -> int:
 
 def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
     return saltus.simulate(
-        load(chosen),
+        load(chosen, visuals=chosen.out is not None),  # the file is what pictures are made of
         q=dict(chosen.q),
         v=dict(chosen.v),
         duration=chosen.duration,
@@ -123,6 +123,10 @@ def info(chosen: argparse.Namespace) -> int:
     print("\nlinks, each after its joint")
     print(textwrap.indent("\n".join(saltus.model_tree(model).splitlines()[1:]), "  "))
     _print_coordinates(model)
+    if model.control_names:
+        limits = zip(model.control_names, model.control_limits, strict=True)
+        rows = ([name, *("" if math.isinf(x) else f"{x:g}" for x in pair)] for name, pair in limits)
+        _print_table("actuators", ["name", "control from", "to"], rows)
     _print_table(
         "shapes",
         ["name", "shape", "link"],
@@ -210,7 +214,9 @@ def _print_pair_kinds(model: saltus.Model) -> None:
 
 def _print_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     lines = [list(heads), *rows]
-    widths = [max(len(line[i]) for line in lines) for i in range(len(heads))]
+    told = [i for i in range(len(heads)) if any(line[i] for line in lines[1:])]
+    lines = [[line[i] for i in told] for line in lines] if told else lines[:1]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     if len(lines) == 1:
         print(f"\n{title}: none")
         return

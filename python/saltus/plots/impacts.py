@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from saltus._core import Impact, ModelError
 from saltus.plots.figure import finish, new_figure
+from saltus.plots.lines import shortened
 from saltus.records.impacts import count_line
 from saltus.records.recording import Recording
 from saltus.records.tables import Array, counted
@@ -29,6 +30,7 @@ NARROWED = 0.62  # part of the width that names and sums leave
 ROW, ROWS = 0.34, 9.0  # [in] height of a row, and of all rows at the most
 LARGEST, SMALLEST = 20.0, 2.5  # [pt] diameters: of the strongest impulse, of any that is seen
 CROWDED = 8.0  # [pt] of the strongest impulse, however narrow rows and columns are
+MOST_LETTERS = 34  # of a name
 MOST_LABELS = 45  # rows with a name each; of more rows some are named
 BLUE = "#0072b2"
 STYLE: dict[str, Any] = {
@@ -38,6 +40,8 @@ STYLE: dict[str, Any] = {
     "zorder": 2,
     "clip_on": False,
 }
+DENSE = 3.0  # [pt] a mark of the busiest row: marks overlap, and are drawn to show how densely
+DENSE_STYLE: dict[str, Any] = {"linewidths": 0, "alpha": 0.25}
 
 
 @dataclass(frozen=True)
@@ -113,9 +117,14 @@ def plot_impacts(
         t = run.impacts["t"][marks.impact]
         ways = (t[starts], marks.row[starts], marks.row[ends])
         axes.vlines(*ways, color=BLUE, lw=0.7, alpha=0.45, zorder=1)
-        axes.scatter(t, marks.row, s=scale.diameters(marks.sums) ** 2, **STYLE)
+        style = STYLE if column > DENSE else {**STYLE, **DENSE_STYLE}
+        axes.scatter(t, marks.row, s=scale.diameters(marks.sums) ** 2, **style)
         _legend(axes, scale)
-    axes.set_xlim(run.t[0], max(run.t[-1], run.t[0] + 1e-9))
+    else:
+        axes.text(0.5, 0.5, "no impacts", ha="center", va="center", transform=axes.transAxes)
+        axes.set_yticks([])
+    if len(run) > 1:
+        axes.set_xlim(run.t[0], run.t[-1])
     axes.set_xlabel("time [s]", loc="left")
     axes.set_title(
         f"{counted(len(run.impacts), 'impact')}, {counted(len(run.impulses), 'impulse')}",
@@ -192,7 +201,8 @@ def _rows(path: str | os.PathLike[str] | None, names: Sequence[str]) -> tuple[Fi
     axes = figure.add_subplot()
     axes.set_ylim(count - 0.4, -0.6)
     every = -(-len(names) // MOST_LABELS) if names else 1
-    axes.set_yticks(range(0, len(names), every), names[::every], fontsize="small")
+    shown = [shortened(name, MOST_LETTERS) for name in names[::every]]
+    axes.set_yticks(range(0, len(names), every), shown, fontsize="small")
     axes.tick_params(axis="y", length=0)
     axes.spines[["top", "right", "left"]].set_visible(False)
     if len(names) <= MOST_LABELS:

@@ -9,21 +9,23 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from saltus._core import (
-    ContactProperties,
     ImpactLaw,
     ImpactOrder,
     ImpactProblem,
-    InertiaUse,
-    JointEffects,
-    JointType,
-    MeshUse,
     Model,
     ModelError,
     StepOptions,
-    TreeSolver,
     __version__,
-    read_urdf,
 )
+from saltus.records.described import (
+    DOCUMENT,
+    GROUP,
+    difference,
+    read_description,
+    read_model,
+    write_model,
+)
+from saltus.records.older_files import read_text_model, refuse_angles
 from saltus.records.recording import Recording
 from saltus.records.replace import replacing
 from saltus.records.stored import Stored
@@ -38,14 +40,14 @@ from saltus.records.tables import (
     SETTLING,
     SOURCES,
 )
-from saltus.records.urdf_options import urdf_options
-from saltus.urdf import build_quietly
 
 if TYPE_CHECKING:
     import h5py
 
 FORMAT = "saltus trajectory"
-VERSION = 2  # 1: free and ball joints were yaw, pitch, roll, and velocities had no names
+VERSION = 3
+"""Before 3 the model was URDF text and options of `load_urdf`, or not there. In 1 free and ball
+joints were yaw, pitch, roll, and velocities had no names."""
 MOST = ("max_iterations", "max_impacts", "max_halvings", "max_impulses")
 BOUNDS = (*MOST, "rest", "simultaneous", "strict")
 NAMES = ("coordinate_names", "velocity_names", "pair_names", "certificates", "control_names")
@@ -54,12 +56,12 @@ OPTIONS = ("h", "collisions", *BOUNDS)
 Kind = TypeVar("Kind", bound=Recording)
 
 
-def save(run: Recording, path: str | os.PathLike[str]) -> None:
+def save(run: Recording, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
     """Write a trajectory; see `Trajectory.save`."""
     import h5py
 
     with replacing(path) as part, h5py.File(part, "w") as file:
-        _write(run, file)
+        _write(run, file, visuals)
 
 
 def read(kind: type[Kind], path: str | os.PathLike[str], model: Model | None) -> Kind:
@@ -79,7 +81,7 @@ def read(kind: type[Kind], path: str | os.PathLike[str], model: Model | None) ->
         raise ModelError(f"{path} is no trajectory that saltus can read: {error}") from None
 
 
-def _write(run: Recording, file: h5py.File) -> None:
+def _write(run: Recording, file: h5py.File, visuals: bool) -> None:
     import h5py
 
     text = h5py.string_dtype()
@@ -110,22 +112,15 @@ def _write(run: Recording, file: h5py.File) -> None:
     file["impacts"] = run.impacts.astype(np.dtype(fields))
     for name in NAMES:
         file.create_dataset(name, data=list(getattr(run, name)), dtype=text)
-    options = None if run.model is None else urdf_options(run.model)
-    if run.model is None or options is None:
-        file.attrs["model"] = "not in this file: it was built in code, or changed after it was read"
+    if run.model is None:
+        file.attrs["model"] = "not in this file: the run was loaded from a file without it"
         return
-    file.attrs["model"] = "URDF text in urdf"
-    file.attrs["gravity"] = run.model.gravity
-    file.attrs["root_joint"] = options["root_joint"].name
-    file.attrs["solver"] = options["solver"].name
-    file.attrs["meshes"] = options["meshes"].name
-    file.attrs["floor"] = options["floor"]
-    file.attrs["effects"] = options["effects"].value
-    file.attrs["inertia"] = options["inertia"].name
-    if options["contact"] is not None:
-        file.attrs["restitution"] = options["contact"].restitution
-        file.attrs["friction"] = options["contact"].friction
-    file.create_dataset("urdf", data=run.model.source, dtype=text)
+    try:
+        write_model(file, run.model, visuals=visuals)
+    except ModelError as error:  # a model of what no file can hold, as functions
+        file.attrs["model"] = f"not in this file: {error}"
+        return
+    file.attrs["model"] = f"JSON in {DOCUMENT}"
 
 
 def _read(kind: type[Kind], file: Stored, model: Model | None) -> Kind:
@@ -138,7 +133,7 @@ def _read(kind: type[Kind], file: Stored, model: Model | None) -> Kind:
             f"{VERSION}"
         )
     coordinates = file.names("coordinate_names")
-    _refuse_angles(coordinates, version, file.path)
+    refuse_angles(coordinates, version, file.path)
     velocities = coordinates  # of files of version 1
     if "velocity_names" in file:
         velocities = file.names("velocity_names")
@@ -147,12 +142,7 @@ def _read(kind: type[Kind], file: Stored, model: Model | None) -> Kind:
     arrays = _arrays(file, len(coordinates), len(velocities), len(pairs))
     if certificates and len(certificates) != len(arrays["impacts"]):
         file.fail('dataset "certificates"', "has not as many entries as there are impacts")
-    if model is None and "urdf" in file:
-        model = _model(file)
-        if set(pairs) <= set(model.limit_names) and model.n_pairs <= LISTED_PAIRS:
-            model = model.without_collisions()
-    if model is not None:
-        _check_model(model, coordinates, pairs, file.path)
+    model = _model(file, model, coordinates, pairs)
     arrays["control_names"] = file.names("control_names") if "control_names" in file else ()
     columns = len(arrays["control_names"])
     for name, width in (("control", columns), ("work", columns + len(SOURCES))):
@@ -206,39 +196,33 @@ def _arrays(file: Stored, n_q: int, n_v: int, pairs: int) -> dict[str, Any]:
     return arrays
 
 
-def _model(file: Stored) -> Model:
-    """Make the model anew of its text; its visuals are read as `load_urdf` does."""
-    builder = read_urdf(
-        file.text("urdf"),
-        gravity=np.asarray(file.file.attrs["gravity"]),
-        root_joint=file.member("root_joint", JointType),
-        solver=file.member("solver", TreeSolver, TreeSolver.automatic),
-        meshes=file.member("meshes", MeshUse, MeshUse.none),
-        contact=_contact(file),
-        floor=bool(file.number("floor", False)),
-        inertia=file.member("inertia", InertiaUse, InertiaUse.checked),
-        effects=JointEffects(int(file.number("effects", 0))),  # older files: none acted
-    )
-    return build_quietly(builder)
+def _model(
+    file: Stored, given: Model | None, coordinates: tuple[str, ...], pairs: tuple[str, ...]
+) -> Model | None:
+    """Return the model of a run: as the file has it, or as it is given, which must fit."""
+    if given is not None:
+        check_model(given, coordinates, pairs, file.path)
+    if GROUP in file:
+        description = read_description(file)
+        if given is None:
+            return None if _has_functions(description) else read_model(file, description)
+        found = difference(description, given._description())
+        if found:
+            raise ModelError(f"the model is not that of the run in {file.path}: {found}")
+        return given
+    if given is not None or "urdf" not in file or file.number("version") >= VERSION:
+        return given
+    model = read_text_model(file)
+    if set(pairs) <= set(model.limit_names) and model.n_pairs <= LISTED_PAIRS:
+        model = model.without_collisions()
+    check_model(model, coordinates, pairs, file.path)
+    return model
 
 
-def _contact(file: Stored) -> ContactProperties | None:
-    if "friction" not in file.file.attrs:
-        return None
-    return ContactProperties(
-        restitution=file.number("restitution"), friction=file.number("friction")
-    )
-
-
-def _refuse_angles(coordinates: tuple[str, ...], version: int, path: Path) -> None:
-    """Raise ModelError where free or ball joints are stored as yaw, pitch and roll."""
-    for name in coordinates if version < 2 else ():
-        joint = name.removesuffix("_pitch")
-        if name != joint and {f"{joint}_yaw", f"{joint}_roll"} <= set(coordinates):
-            raise ModelError(
-                f'{path} holds joint "{joint}" as yaw, pitch and roll (format version {version}); '
-                "free and ball joints are quaternions now: run the simulation again"
-            )
+def _has_functions(description: dict[str, Any]) -> bool:
+    """Return whether a part of the model was a function, which a file cannot hold."""
+    told = [spec.get("function") for spec in description.get("prescribed", [])]
+    return bool(description.get("forces") or description.get("potentials") or any(told))
 
 
 def _step_options(file: Stored) -> StepOptions:
@@ -260,7 +244,7 @@ def _lost_law(_: ImpactProblem) -> np.typing.NDArray[np.float64]:
     raise ModelError("the law of this run was a function, which its file does not hold")
 
 
-def _check_model(
+def check_model(
     model: Model, coordinates: tuple[str, ...], pairs: tuple[str, ...], path: Path
 ) -> None:
     """Raise ModelError where a model cannot be that of the run."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from saltus._core import Impact
-from saltus.records.models import html_table
-from saltus.records.tables import counted
+from collections.abc import Callable
 
+from saltus._core import Impact, ImpactOutcome, StepReport
+from saltus.records.models import html_table
+from saltus.records.tables import counted, without_tails
+
+MOST_IMPULSES = 8  # of a repr; longer cascades are counted
 MOST_ROWS = 30  # of a table that print makes; a cradle of 1000 balls has 999 impulses at once
 
 
@@ -96,6 +99,26 @@ def _printed(self: Impact) -> str:
     return impact_table(self, most=MOST_ROWS)
 
 
+def _of_impact(whole: Callable[[Impact], str]) -> Callable[[Impact], str]:
+    def text(self: Impact) -> str:
+        if len(self.pairs) <= MOST_IMPULSES:
+            return whole(self)
+        return f"<saltus.Impact: t = {self.t:g} s, {count_line(self)}>"
+
+    return text
+
+
+def _of_outcome(whole: Callable[[ImpactOutcome], str]) -> Callable[[ImpactOutcome], str]:
+    return lambda self: without_tails(whole(self))
+
+
+def _of_report(self: StepReport) -> str:
+    return f"StepReport(iterations={self.iterations}, arcs={self.arcs}, impacts={self.impacts!r})"
+
+
 # Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
 Impact.__str__ = _printed  # type: ignore[method-assign]
 Impact._repr_html_ = _html  # type: ignore[method-assign]
+Impact.__repr__ = _of_impact(Impact.__repr__)  # type: ignore[method-assign]
+ImpactOutcome.__repr__ = _of_outcome(ImpactOutcome.__repr__)  # type: ignore[method-assign]
+StepReport.__repr__ = _of_report  # type: ignore[method-assign]

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from html import escape
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from saltus._core import JointInfo, JointType, Model, PlacedShape, shape_name
-from saltus.records.tables import counted
+from saltus._core import (
+    Coordinate,
+    Frames,
+    JointInfo,
+    JointType,
+    Mimic,
+    Model,
+    PlacedShape,
+    State,
+    shape_name,
+)
+from saltus.records.tables import counted, without_tails
 
 MOST_ROWS = 60  # of a tree that print makes; a cradle of 1000 balls has 2000 joints
 
@@ -159,6 +169,25 @@ def _html(self: Model) -> str:
     return html_table(heads, cells, headline(self))
 
 
-# Of the compiled class itself, as impacts.py does.
+def _coordinate(self: Coordinate) -> str:
+    joint = "" if self.joint == self.name else f" of {self.joint!r}"
+    limited = not (math.isinf(self.lower) and math.isinf(self.upper))
+    limits = f", {self.lower:.4g} to {self.upper:.4g}" if limited else ""
+    return f"Coordinate({self.name!r}{joint}, [{self.unit}]{limits})"
+
+
+def _mimic(self: Mimic) -> str:
+    return f"Mimic({self.joint!r}, multiplier={self.multiplier:g}, offset={self.offset:g})"
+
+
+def _short(whole: Callable[[Any], str]) -> Callable[[Any], str]:
+    return lambda self: without_tails(whole(self))
+
+
+# Of the compiled classes themselves, as impacts.py does.
+Coordinate.__repr__ = _coordinate  # type: ignore[method-assign]
+Mimic.__repr__ = _mimic  # type: ignore[method-assign]
+State.__repr__ = _short(State.__repr__)  # type: ignore[method-assign]
+Frames.__repr__ = _short(Frames.__repr__)  # type: ignore[method-assign]
 Model.__str__ = _printed  # type: ignore[method-assign]
 Model._repr_html_ = _html  # type: ignore[method-assign]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from saltus import _core
 from saltus._core import Impact, ImpactLaw, Link, Model, ModelError, State, StepOptions
+from saltus.records.sensors import Rows, Touch, read_sensor, sensor_of, touches
 from saltus.records.tables import (
     ARRAYS,
     CONTACT,
@@ -197,8 +198,8 @@ class Recording:
         """Return the model; raise ModelError where there is none."""
         if self.model is None:
             raise ModelError(
-                "this trajectory has no model, which was built in code, or changed after it was "
-                "read; give it to load: saltus.load(path, model=model)"
+                "this trajectory has no model, which its file does not hold; give it to load: "
+                "saltus.load(path, model=model)"
             )
         return self.model
 
@@ -209,3 +210,34 @@ class Recording:
     def velocities(self, link: str | int | Link) -> Array:
         """Return angular velocity [rad/s] and velocity of a link's origin [m/s], (rows, 6)."""
         return self.require_model().velocities(self.q, self.v, link)
+
+    def sensor(self, name: str) -> Array:
+        """Return what a sensor of the model reads in each row.
+
+        Parameters
+        ----------
+        name : str
+            As in `ModelBuilder.add_sensor`.
+
+        Returns
+        -------
+        numpy.ndarray, shape (rows,) or (rows, k)
+            By its kind: see `SensorKind`. An accelerometer, and forces of contacts, are means over
+            the time since the row before; in the first row contacts read 0, and an accelerometer
+            what it would at constant velocity.
+
+        Raises
+        ------
+        ModelError
+            On a name that no sensor has; lists those there are. On forces of contacts, where these
+            were not recorded.
+        """
+        model = self.require_model()
+        spans = np.diff(self.t, prepend=self.t[0])
+        rows = Rows(model, self.t, self.q, self.v, self.control, self._touch, spans)
+        return read_sensor(rows, sensor_of(model, name))
+
+    def _touch(self) -> Touch:
+        own = self.contacts[self.contacts["row"] < len(self)]
+        pairs = (self.pair_names[pair] for pair in own["pair"])
+        return touches(own["row"], pairs, own["lambda"], own["tangential"], own["normal"])

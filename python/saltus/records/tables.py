@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -37,6 +38,8 @@ CONTACT = np.dtype([("row", "i8"), ("t", "f8"), ("impact", "i8"), *ACTED])
 
 SOURCES = ("damping", "friction", "applied")  # of work, besides actuators
 
+MOST_NUMBERS, FIRST_NUMBERS = 12, 6  # that a repr shows of an array, and of a longer one
+
 LISTED_PAIRS = 100_000
 """Models with more pairs have no list of their names in a trajectory."""
 
@@ -63,6 +66,18 @@ def counted(number: int, noun: str) -> str:
     if number == 1:
         return f"{number} {noun}"
     return f"{number} {noun[:-1]}ies" if noun.endswith("y") else f"{number} {noun}s"
+
+
+def without_tails(text: str) -> str:
+    """Return a text whose long lists of numbers in brackets lack all but their first ones."""
+
+    def cut(match: re.Match[str]) -> str:
+        items = match[1].split(", ")
+        if len(items) <= MOST_NUMBERS:
+            return match[0]
+        return f"[{', '.join(items[:FIRST_NUMBERS])}, ... {len(items) - FIRST_NUMBERS} more]"
+
+    return re.sub(r"\[([^\[\]]*)\]", cut, text)
 
 
 def row_of(index: object, count: int, what: str) -> int:

@@ -81,9 +81,10 @@ def simulate(
     Parameters
     ----------
     model : Model
-    q : array_like, shape (n_q,), or mapping of names to values, optional
+    q : array_like, shape (n_q,), or mapping of names to values, or str, optional
         [rad | m] coordinates at the start; those not named are as in `Model.neutral`. A free or
-        ball joint takes a Pose, a quaternion, or a SciPy Rotation by its name: see `Model`.
+        ball joint takes a Pose, a quaternion, or a SciPy Rotation by its name: see `Model`. A str
+        is the name of a state of the model, `Model.state_names`.
     v : array_like, shape (n_v,), or mapping of names to values, optional
         [rad/s | m/s] velocities at the start; those not named are 0.
     duration : float

@@ -148,26 +148,30 @@ class Trajectory(Shown):
         core = _core.Trajectory.from_states(model, times, configurations, rows, momenta, h)
         return cls.from_core(core)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to an HDF5 file, with the model's URDF text in it.
-
-        A model that was built in code has no text; `load` then needs the model again.
+    def save(self, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
+        """Write everything to an HDF5 file, with the model in it.
 
         Parameters
         ----------
         path : str or os.PathLike
+        visuals : bool
+            False: without what links look like, which is most of a file with meshes.
         """
-        files.save(self, path)
+        files.save(self, path, visuals=visuals)
 
     def plot(self, path: str | os.PathLike[str] | None = None, **options: Any) -> Figure:
-        """Draw the run: a cradle as velocities with sketches, others as coordinates and energies.
+        """Draw the run over time: coordinates, velocities, gaps, controls, energies, work.
+
+        A cradle is drawn as in the paper's Fig. 3 (`saltus.plots.plot_cradle`), by velocities with
+        sketches; with `panels=` as other runs are (`saltus.plots.plot_run`).
 
         Parameters
         ----------
         path : str or os.PathLike, optional
-            File for the picture; its suffix selects the format.
+            File for the picture; its suffix selects the format. None: the figure is returned alone.
         **options
-            As in `saltus.plots.plot_cradle` or `saltus.plots.plot_run`.
+            `panels`, `names` and `pairs`, as in `saltus.plots.plot_run`; of a cradle `times` of the
+            sketches, as in `saltus.plots.plot_cradle`.
 
         Returns
         -------
@@ -201,7 +205,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     ----------
     path : str or os.PathLike
     model : Model, optional
-        The model of the run, for files without it because it was built in code.
+        The model of the run, for files without it, and to have its visuals and sensors.
 
     Returns
     -------
@@ -211,6 +215,7 @@ def load(path: str | os.PathLike[str], *, model: Model | None = None) -> Traject
     Raises
     ------
     ModelError
-        On a file without a trajectory, and on a model that is not that of the run.
+        On a file without a trajectory, and on a model that is not that of the run: other masses,
+        joints, shapes, contacts or forces. Visuals, states and sensors may differ.
     """
     return files.read(Trajectory, path, model)

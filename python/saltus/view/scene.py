@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from saltus._core import Model, ModelError, Pose, State, __version__, gap, has_gap
+from saltus._core import Model, State, __version__
+from saltus.records.pairs import gaps_over, named_pairs, pair_name, pairs_of_run
 from saltus.records.recording import Recording
-from saltus.records.tables import Array, counted
+from saltus.records.tables import counted
 from saltus.view.arrays import packed
 from saltus.view.instants import Instants, instants_of
 from saltus.view.parts import Parts, shapeless
@@ -180,57 +180,8 @@ def _forces(run: Recording, instants: Instants) -> dict[str, Any] | None:
 def _gaps(
     run: Recording, model: Model, instants: Instants, names: Sequence[str] | None
 ) -> dict[str, Any]:
-    placed = model.shapes
-    chosen = _named(model, names) if names is not None else _most_used(run, model)
+    chosen = pairs_of_run(run, model) if names is None else named_pairs(model, names)
     if names is None:
         chosen = chosen[: max(1, min(MOST_GAPS, MOST_VALUES // len(instants.t)))]
-    shapes = sorted({shape for pair in chosen for shape in pair})
-    poses = {shape: _poses_of(model, instants.q, shape) for shape in shapes}
-    values = np.empty((len(instants.t), len(chosen)))
-    for column, (a, b) in enumerate(chosen):
-        one, other = placed[a].shape, placed[b].shape
-        for row in range(len(values)):
-            values[row, column] = gap(one, poses[a][row], other, poses[b][row]).phi
+    values = gaps_over(model, instants.q, chosen)
     return {"pairs": [pair_name(model, pair) for pair in chosen], "phi": packed(values)}
-
-
-def _poses_of(model: Model, q: Array, shape: int) -> list[Pose]:
-    return [Pose(X[:3, 3], X[:3, :3]) for X in model.shape_poses(q, shape)]
-
-
-def pair_name(model: Model, pair: tuple[int, int]) -> str:
-    """Return the name of a pair of shapes, which are numbers in `model.shapes`."""
-    return " ~ ".join(model.shapes[i].name for i in pair)
-
-
-def _named(model: Model, names: Sequence[str]) -> list[tuple[int, int]]:
-    index = {placed.name: i for i, placed in enumerate(model.shapes)}
-    found = []
-    for name in names:
-        a, _, b = name.partition(" ~ ")
-        if a not in index or b not in index or a == b:
-            raise ModelError(
-                f'no pair "{name}"; it is named "a ~ b" after two of the shapes '
-                f"{', '.join(index) or '(there are none)'}"
-            )
-        if not has_gap(model.shapes[index[a]].shape, model.shapes[index[b]].shape):
-            raise ModelError(f'pair "{name}": no gap function is known for these two shapes')
-        found.append((index[a], index[b]))
-    return found
-
-
-def _most_used(run: Recording, model: Model) -> list[tuple[int, int]]:
-    """Return pairs of shapes: those that met, the most frequent first, then the others."""
-    numbers = Counter(run.impulses["pair"].tolist())
-    if run.recorded_contacts is not None:
-        numbers.update(run.recorded_contacts["pair"].tolist())
-    index = {placed.name: i for i, placed in enumerate(model.shapes)}
-    pairs: dict[tuple[int, int], None] = {}
-    for number, _ in numbers.most_common():
-        ends = [end.split("[")[0] for end in run.pair_names[number].split(" ~ ")]
-        if len(ends) == 2 and ends[0] in index and ends[1] in index:
-            pairs[index[ends[0]], index[ends[1]]] = None
-    if model.n_pairs <= 20 * MOST_GAPS:
-        pairs.update(dict.fromkeys((pair.a, pair.b) for pair in model.pairs))
-    shapes = [placed.shape for placed in model.shapes]
-    return [(a, b) for a, b in pairs if has_gap(shapes[a], shapes[b])]

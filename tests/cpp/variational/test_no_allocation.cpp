@@ -6,6 +6,7 @@
 #include "count_allocations.hpp"
 #include "kit/driven_arm.hpp"
 #include "kit/scenes.hpp"
+#include "saltus/model/close_loops.hpp"
 
 namespace saltus {
 namespace {
@@ -63,6 +64,35 @@ TEST(Stepper, ABoxThatSlidesToRestAllocatesNothing) {
   const long before = allocations;
   for (int k = 0; k < 300; ++k) stepper.step(state);
   EXPECT_EQ(allocations, before);
+}
+
+/// Crank, rod and a slider that a loop holds on its line, before a wall.
+Model slider_crank() {
+  ModelBuilder b("slider-crank");
+  const auto add_rod = [&](const std::string& name, const std::string& on, double x) {
+    b.add_link({name, {1, Vec3(0.5, 0, 0), Vec3(0, 0.1, 0.1).asDiagonal()}});
+    b.add_joint({.name = name,
+                 .parent = on,
+                 .child = name,
+                 .X_PJ = {Mat3::Identity(), Vec3(x, 0, 0)},
+                 .axis = Vec3::UnitY()});
+  };
+  add_rod("crank", "world", 0);
+  add_rod("rod", "crank", 0.3);
+  b.add_shape("rod", Sphere{0.05}, {Mat3::Identity(), Vec3(1, 0, 0)});
+  b.add_half_space("wall", -Vec3::UnitX(), -1.25);
+  b.set_default_contact({0.8, 0.3});
+  b.add_loop("guide", LoopType::on_plane, {"rod", {Mat3::Identity(), Vec3(1, 0, 0)}}, {"world"});
+  return b.build();
+}
+
+TEST(Stepper, ALoopThatHitsAWallAllocatesNothing) {
+  const Model model = slider_crank();
+  const VecX q = close_loops(model, VecX::Constant(2, 0.1), {0});
+  const VecX v = consistent_velocity(model, q, Vec2(5, 0), {0});
+  const auto [allocated, impacts] = count(model, model.state(q, v), {.h = 0.01});
+  EXPECT_EQ(allocated, 0);
+  EXPECT_GT(impacts, 2);
 }
 
 TEST(Stepper, ATowerThatStandsAllocatesNothing) {

@@ -26,9 +26,10 @@ ModelBuilder sprung(double length, double damping) {
   knee.X_PJ.p = Vec3(0, 0, -0.5);
   knee.axis = Vec3(1, 1, 0);
   b.add_joint(hip).add_joint(knee);
-  b.add_spring(
-      {"rope", {"box", Vec3(0.1, 0.2, 0.3)}, {"world", Vec3(0, 0, 2)}, 60, length, damping});
-  b.add_spring({"tie", {"lower", Vec3(0, 0, -0.4)}, {"box", Vec3::Zero()}, 30, length, damping});
+  b.add_spring({"rope", point_on("box", Vec3(0.1, 0.2, 0.3)), point_on("world", Vec3(0, 0, 2)), 60,
+                length, damping});
+  b.add_spring({"tie", point_on("lower", Vec3(0, 0, -0.4)), point_on("box", Vec3::Zero()), 30,
+                length, damping});
   return b;
 }
 
@@ -86,7 +87,8 @@ TEST(Springs, MomentumIsKept) {
   b.add_body({.name = "a", .shape = Box{{0.1, 0.2, 0.3}}, .mass = 2});
   b.add_body(
       {.name = "b", .shape = Box{{0.1, 0.1, 0.1}}, .mass = 1, .X = {Mat3::Identity(), {1, 0, 0}}});
-  b.add_spring({"spring", {"a", Vec3(0.1, 0, 0.3)}, {"b", Vec3(0, 0.1, 0)}, 50, 0.5, 1});
+  b.add_spring(
+      {"spring", point_on("a", Vec3(0.1, 0, 0.3)), point_on("b", Vec3(0, 0.1, 0)), 50, 0.5, 1});
   const Model model = b.build();
   State state = model.state(model.neutral(), VecX::LinSpaced(12, -1, 1));
   const Vec3 linear = state.p.segment<3>(0) + state.p.segment<3>(6);
@@ -105,11 +107,8 @@ TEST(Springs, MomentumIsKept) {
 TEST(Springs, NewtonsMethodIsQuadraticHoweverStiffTheyAre) {
   for (const double stiffness : {1e2, 1e4, 1e6}) {
     ModelBuilder b = sprung(0.4, 3);
-    b.add_spring({"stiff",
-                  {"upper", Vec3(0.1, 0, -0.5)},
-                  {"world", Vec3(1.3, 0, 0.2)},
-                  stiffness,
-                  std::sqrt(0.13),
+    b.add_spring({"stiff", point_on("upper", Vec3(0.1, 0, -0.5)),
+                  point_on("world", Vec3(1.3, 0, 0.2)), stiffness, std::sqrt(0.13),
                   stiffness / 100});  // at rest at first
     const Model model = b.build();
     Stepper stepper(model, {.h = 0.01});

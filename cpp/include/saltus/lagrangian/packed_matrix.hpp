@@ -49,6 +49,7 @@ struct PackedMatrix {
   Blocks<8> ball_k;  ///< scratch: coefficients of K and C
   /// What a coordinate adds to its own pivot; empty where none does. Of balls it is in Delta.
   Blocks<1> added;
+  VecX lock;  ///< (n_v) what the caller has added to the diagonal; empty: nothing. Not of balls
 
   // lu
   PackedRows lower, upper;  ///< row j: J_ji and J_ij, eliminated

@@ -12,7 +12,10 @@
 #include <vector>
 
 #include "saltus/model/force_specs.hpp"
+#include "saltus/model/loop_spec.hpp"
 #include "saltus/model/model.hpp"
+#include "saltus/model/named_state.hpp"
+#include "saltus/model/sensor.hpp"
 #include "saltus/model/visual.hpp"
 
 namespace saltus {
@@ -128,6 +131,9 @@ struct ModelDescription {
   std::vector<LinkSpec> links;  ///< the root first
   std::vector<JointSpec> joints;
   std::vector<ActuatorSpec> actuators;
+  std::vector<LoopSpec> loops;
+  std::vector<CouplingSpec> couplings;
+  std::vector<PrescribedSpec> prescribed;
   std::vector<SpringSpec> springs;
   std::vector<ForceSpec> forces;
   std::vector<PotentialFunction> potentials;
@@ -135,6 +141,8 @@ struct ModelDescription {
   std::vector<Visual> visuals;
   FilterSpec filter;
   MaterialSpec materials;
+  std::vector<StateSpec> states;
+  std::vector<SensorSpec> sensors;
   std::vector<std::string> warnings;
 };
 

@@ -6,21 +6,14 @@
 
 #include "saltus/force/force_function.hpp"
 #include "saltus/lagrangian/potentials.hpp"
+#include "saltus/model/at.hpp"
 
 namespace saltus {
-
-/// A point of a link.
-struct LinkPoint {
-  std::string link;
-  Vec3 point = Vec3::Zero();  ///< [m] in the link's frame
-
-  bool operator==(const LinkPoint&) const = default;
-};
 
 /// A spring and a damper side by side between two points.
 struct SpringSpec {
   std::string name;
-  LinkPoint a, b;
+  At a, b;               ///< their origins
   double stiffness = 0;  ///< [N/m]
   double length = 0;     ///< [m] where it pulls no more
   double damping = 0;    ///< [N s/m]

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "saltus/collision/pair_table.hpp"
+#include "saltus/constraint/equality.hpp"
 #include "saltus/error.hpp"
 #include "saltus/force/force_model.hpp"
 #include "saltus/lagrangian/partials.hpp"
@@ -97,6 +98,7 @@ struct ModelData {
   MassModel mass;
   PackedTree packed;  ///< tree and mass, for the kernels
   ForceModel forces;
+  EqualityModel equalities;  ///< loops, then couplings
   std::vector<Link> links;
   std::vector<JointInfo> joints;
   std::vector<Coordinate> coordinates;      ///< (n_q)

@@ -119,6 +119,24 @@ class SALTUS_EXPORT ModelBuilder {
   /// e at the stops that the joint has.
   ModelBuilder& set_limit_restitution(const std::string& joint, double restitution);
   ModelBuilder& add_joint_spring(const std::string& joint, double stiffness, double rest = 0);
+
+  /// Holds two links together beyond the tree; simulate from a configuration that closes it
+  /// (close_loops). `distance` [m] is of type distance.
+  ModelBuilder& add_loop(const std::string& name, LoopType type, const At& a, const At& b,
+                         double distance = 0);
+  /// The displacement of `joint` is a polynomial, by rising powers, of that of another. A joint
+  /// that mimics another is the same of degree 1, and has no coordinate.
+  ModelBuilder& add_coupling(const std::string& joint, const std::string& of,
+                             const std::vector<double>& polynomial);
+  /// The joint moves by a cubic spline (ends are not bent, a line goes on beyond) through `values`
+  /// [rad | m] at `times` [s], whatever that takes.
+  ModelBuilder& set_prescribed(const std::string& joint, std::vector<double> times,
+                               std::vector<double> values);
+  /// The same by a function of time. A model that has one cannot be sent elsewhere.
+  ModelBuilder& set_prescribed(const std::string& joint,
+                               std::function<PrescribedMotion(double t)> function);
+  ModelBuilder& set_prescribed(const PrescribedSpec& spec);
+
   /// A spring that resists with `f` at the displacements `x` [rad | m], ascending, and with a cubic
   /// spline between; V is its integral from the first. Ends are natural, or have these slopes.
   ModelBuilder& add_joint_spring(const std::string& joint, std::vector<double> x,
@@ -136,6 +154,11 @@ class SALTUS_EXPORT ModelBuilder {
   /// What of these acts, of one joint or of all there are now.
   ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
   ModelBuilder& set_effects(JointEffects effects);
+
+  /// A state by name, see named_state.hpp. Joints are those there are now; joints that mimic others
+  /// have no numbers of their own.
+  ModelBuilder& add_state(const StateSpec& state);
+  ModelBuilder& add_sensor(const SensorSpec& sensor);
 
   ModelBuilder& add_warning(std::string text);
 

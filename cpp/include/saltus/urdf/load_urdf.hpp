@@ -80,7 +80,8 @@ struct UrdfOptions {
   MeshUse meshes = MeshUse::hull;
   /// SRDF, a file or text as read_urdf's argument: its `<disable_collisions>`,
   /// `<disable_default_collisions>` and `<enable_collisions>` say which links never collide.
-  /// Half-spaces stay watched; links that the robot has not are named in a warning.
+  /// Half-spaces stay watched; its `<group_state>` are states by name. Links and joints that the
+  /// robot has not are named in warnings.
   std::optional<std::string> srdf = {};
   /// What of its joints acts; the rest is kept as information.
   JointEffects effects = JointEffects::all;

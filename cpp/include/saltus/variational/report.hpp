@@ -73,6 +73,9 @@ struct StepReport {
   /// [J] done on the model in the step: by each actuator, by damping, by dry friction, and by the
   /// forces of the input. H changes by their sum, but for O(h^2) of the midpoint rule.
   VecX work;  ///< (n_u + 3)
+  /// [N s | N m s] what loops pushed in the step, those of impacts left aside; by the step h it is
+  /// their mean force. Rows as in model->equalities.
+  VecX loops;
   std::vector<Impact> impacts;
   std::vector<ContactImpulse> impulses;  ///< of impacts
   std::vector<Settling> settlings;

@@ -94,7 +94,8 @@ void add_own_shadow(const PackedTree& t, const Packed& w, ShadowTerm& out) {
 void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J) {
   const bool has_slopes = tau > 0 && !w.slope.empty();
   const bool has_curves = t.potentials != nullptr && !t.potentials->curves.empty();
-  if (t.own.empty() && !has_slopes && !has_curves) {
+  const bool has_lock = J.lock.size() > 0;
+  if (t.own.empty() && !has_slopes && !has_curves && !has_lock) {
     J.added.clear();
     return;
   }
@@ -103,6 +104,9 @@ void set_own_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatr
     *at(J.added, slot) = armature + tau * tau / 4 * stiffness;
   });
   if (has_curves) add_curve_pivots(t, w, tau, J);
+  for (Eigen::Index c = 0; c < J.lock.size(); ++c) {
+    *at(J.added, t.slot_of_velocity[static_cast<std::size_t>(c)]) += J.lock[c];
+  }
   if (!has_slopes) return;
   for (const PackedBall& ball : t.balls) {
     add_to_ball(ball, at(w.slope, ball.slot[2])[lanes], tau, J);

@@ -81,6 +81,7 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
     s.r += a.launch->lambda * a.launch->n;
     s.scale += std::abs(a.launch->lambda) * a.launch->n.cwiseAbs();
   }
+  if (a.loops != nullptr) add_push(a, s, keep_scale);
   if (!s.r.allFinite()) return std::numeric_limits<double>::infinity();
   if (s.r.size() == 0) return 0;
   // where a coordinate feels no force at all, 0 / tiny is 0
@@ -102,6 +103,9 @@ namespace {
 double residual(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScratch& s,
                 bool keep_scale = false) {
   const double size = momentum_residual(model, a, v, s, keep_scale);
+  if (a.loops != nullptr && std::isfinite(size)) {
+    return std::max(size, loop_residual(model, a, v, s));
+  }
   return is_matched(a.launch) ? std::max(size, line_residual(model, a, v, s)) : size;
 }
 
@@ -115,6 +119,7 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
   if (is_matched(a.launch)) take_out_line(model, a, arc.v, s);
+  if (a.loops != nullptr && !take_out_loops(model, a, s)) return infinity;
   if (!s.dv.allFinite()) return infinity;
   arc.v += s.dv;
   // v has changed by a part of `before`, and so have the terms: a scale is known well enough.
@@ -124,7 +129,7 @@ double newton_step(const ModelData& model, const ArcProblem& a, double before, A
   double after = residual(model, a, arc.v, s, keep_scale);
   // Newton's own direction shortens until the residual falls; 2^-12 of a step is no direction
   for (int k = 0; k < 12 && !(after < before) && before > 1e-10; ++k) {
-    s.dv /= 2;
+    halve_step(s);
     arc.v -= s.dv;
     after = residual(model, a, arc.v, s);
   }
@@ -145,6 +150,8 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
       w_end(model.packed),
       kin_end(model.tree) {
   if (law == ImpactLaw::compensated) compensation.emplace(model);
+  if (model.equalities.rows > 0) loops.emplace(model);
+  J.lock = locks_of(model);
   q.setZero(model.tree.n_q);
   for (VecX* each : {&L_v, &L_q, &r, &scale, &dv, &x}) each->setZero(model.tree.n_v);
   prepare_forces(model, *this);
@@ -216,6 +223,7 @@ void finish_arc(const ModelData& model, const ArcProblem& a, Arc& arc, const Arc
   integrate(model.tree, a.q, a.tau, arc.v, arc.q_end);
   arc.p_end = a.p + a.tau * s.L_q;
   if (a.launch != nullptr) arc.p_end += a.launch->lambda * a.launch->n;
+  if (a.loops != nullptr) arc.p_end += a.loops->push;
 }
 
 double arc_energy(const ModelData& model, const ArcProblem& a, const Arc& arc, ArcScratch& s) {
@@ -234,6 +242,7 @@ void arc_rate(const ModelData& model, const Arc& arc, ArcScratch& s, VecX& rate)
   set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return;
   set_arc_rate(model, arc.tau, s, rate);
+  if (s.loops) hold_rate(model, arc, s, rate);
 }
 
 FastestTurn fastest_turn(const Tree& tree, const VecX& v, double tau) {

@@ -14,7 +14,8 @@
 // an arc: the equation has a pole there, and farther than that its residual counts as infinite.
 //
 // After an impact the arc may have a line more, of one impulse lambda and one equation:
-// launch_line.hpp. What contacts push is part of p: solve.hpp.
+// launch_line.hpp. What contacts push is part of p: solve.hpp. Loops have impulses and equations of
+// their own: arc_loops.hpp.
 //
 // The law `compensated` takes arcs of another Lagrangian, L + c kappa with c = (h^2 - tau^2) / 24
 // (theory, section 5). Then L_v, L_q gain c kappa_v, c kappa_q, and since c depends on tau
@@ -35,6 +36,7 @@
 #include "saltus/lagrangian/shadow.hpp"
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
+#include "variational/arc/arc_loops.hpp"
 #include "variational/arc/launch_line.hpp"
 #include "variational/arc/point_dampers.hpp"
 
@@ -47,6 +49,7 @@ struct ArcProblem {
   LaunchLine* launch = nullptr;  ///< none; not one whose use is none
   double whole = 0;  ///< [s] the step h that the arc is a part of, under `compensated`; else 0
   double t = 0;      ///< [s] when it starts, for forces that are functions of time
+  ArcLoops* loops = nullptr;  ///< none where the model has none
 };
 
 /// True where the line has an equation of its own.
@@ -76,9 +79,10 @@ struct Compensation {
 struct ArcScratch {
   ArcScratch(const ModelData& model, ImpactLaw law);
   std::optional<Compensation> compensation;
-  ForceValues forces;  ///< of the last evaluation; written where has_forces
-  VecX wrench_force;   ///< (n_v) the part of them that wrenches on bodies make
-  VecX point_pull;     ///< (n_v) likewise dampers between points
+  std::optional<ArcLoops> loops;  ///< where the model has some
+  ForceValues forces;             ///< of the last evaluation; written where has_forces
+  VecX wrench_force;              ///< (n_v) the part of them that wrenches on bodies make
+  VecX point_pull;                ///< (n_v) likewise dampers between points
   std::vector<PlacedDamper> dampers;
   const ForceInput* input = nullptr;  ///< what drives the step; written by the stepper
   bool has_forces = false;            ///< likewise: the model or the input has some

@@ -182,13 +182,17 @@ bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfK
   kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
   place_node(scene, t, work.arc.q_end, work.arc.p_end, node);
+  if (node.loops.some && !set_velocity_at_node(scene, node)) return false;
   if (!find_contacts(scene, node)) return false;
   if (work.rows.count == 0) return true;
   // where something was held, all of it may have parted
   const bool is_held = count_pressed(work.rows) > 0 || !node.dry.empty();
   if (is_held && !node.has_factors && !set_velocity_at_node(scene, node)) return false;
   list_contacts(scene, work.rows, node, kick);
-  if (!kick.contacts.empty()) share(scene, node, kick);
+  if (!kick.contacts.empty()) {
+    share(scene, node, kick);
+    if (node.loops.some) take_momentum(scene, node);
+  }
   return true;
 }
 

@@ -82,6 +82,10 @@ void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
     column.setZero();
     add(scene.trees, 1, c.row(k), column);
     solve(model.tree, model.packed, s.J, column);
+    if (s.loops) {
+      s.loops->solver.hold(column);
+      row.by_loops[k] = s.loops->solver.mu;
+    }
     row.by_launch[k] = is_matched(&work.line) ? take_out_line(work.line, column) : 0;
   }
 }
@@ -136,7 +140,7 @@ void shorten(const ModelData& model, const ArcProblem& problem, Arc& arc, ArcScr
   const double before = (s.r.array().abs() / size).maxCoeff();
   for (int k = 0; k < 12 && before > near; ++k) {
     if (momentum_residual(model, problem, arc.v, s, true) < before) return;
-    s.dv /= 2;
+    halve_step(s);
     arc.v -= s.dv;
   }
 }
@@ -154,6 +158,10 @@ Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
     const auto size = work.scratch.scale.array() + rows.size.array() + tiny;
     arc.residual = std::max((work.scratch.r.array().abs() / size).maxCoeff(),
                             line_residual(scene.model, problem, arc.v, work.scratch));
+    if (problem.loops != nullptr) {
+      arc.residual =
+          std::max(arc.residual, loop_residual(scene.model, problem, arc.v, work.scratch));
+    }
   }
   set_rates(scene, node, work);
   const Lawlessness out{arc.residual, arc.residual};
@@ -172,9 +180,11 @@ bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
   const bool is_launched = is_matched(&work.line);
-  if (is_launched) take_out_line(model, arc_problem(scene, arc.tau, node, work), arc.v, s);
+  const ArcProblem problem = arc_problem(scene, arc.tau, node, work);
+  if (is_launched) take_out_line(model, problem, arc.v, s);
+  if (problem.loops != nullptr && !take_out_loops(model, problem, s)) return false;
   arc.v += s.dv;
-  if (s.has_forces) shorten(model, arc_problem(scene, arc.tau, node, work), arc, s);
+  if (s.has_forces) shorten(model, problem, arc, s);
   if (!arc.v.allFinite()) return false;
   set_rates(scene, node, work);
   clear(rows.W);

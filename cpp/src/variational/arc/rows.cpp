@@ -72,17 +72,18 @@ void freeze_point(const ModelData& model, const Node& node, Row& row) {
   row.frozen.on_a.X_JG = Pose{Mat3::Identity(), start_on_a(model, node, row)};
 }
 
-void fit(int n_v, bool with_friction, Row& row) {
+void fit(const ModelData& model, bool with_friction, Row& row) {
   for (int k = 0; k < (with_friction ? 3 : 1); ++k) {
-    row.rate[k].setZero(n_v);
-    row.column[k].setZero(n_v);
+    row.rate[k].setZero(model.tree.n_v);
+    row.column[k].setZero(model.tree.n_v);
+    row.by_loops[k].setZero(model.equalities.rows);
   }
 }
 
 void activate(const Scene& scene, int i, const Node& node, Rows& rows) {
   Row& row = rows.row[i];
   const int rates = contact_of(node, row).rates();
-  if (row.rate[rates - 1].size() == 0) fit(scene.model.tree.n_v, rates == 3, row);
+  if (row.rate[rates - 1].size() == 0) fit(scene.model, rates == 3, row);
   row.is_active = true;
   rows.active.push_back(i);
   rows.pile.reserve(rows.active.size());
@@ -165,7 +166,7 @@ Rows::Rows(const Scene& scene) {
   const auto chain = static_cast<std::size_t>(deepest_chain(scene.model.tree));
   row.resize(reserved);
   for (Row& each : row) {
-    fit(scene.model.tree.n_v, scene.has_friction, each);
+    fit(scene.model, scene.has_friction, each);
     each.frozen.chain.reserve(chain);
   }
   for (auto* each : {&active, &of_contact}) each->reserve(reserved);

@@ -45,6 +45,7 @@ struct Row {
   std::array<VecX, 3> rate;       ///< (n_v) du/dv, of the linearised arc; written if active
   std::array<VecX, 3> column;     ///< (n_v) J^-1 of the forces, which act at the arc's start
   Vec3 by_launch = Vec3::Zero();  ///< what each changes of the launch's impulse
+  std::array<VecX, 3> by_loops;   ///< (m) and of the loops'; where there are some
 
   bool is_joint() const { return contact < 0; }
   const Pair& watched() const { return is_frozen ? frozen : *pair; }

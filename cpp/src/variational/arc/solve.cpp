@@ -49,6 +49,9 @@ void add_change(ArcWork& work) {
     work.arc.v += dp[0] * row.column[0];
     if (rows.W.friction[i] > 0) work.arc.v += dp[1] * row.column[1] + dp[2] * row.column[2];
     if (is_matched(&work.line)) work.line.lambda += row.by_launch.dot(dp);
+    if (!work.scratch.loops) continue;
+    const int rates = rows.W.friction[i] > 0 ? 3 : 1;
+    for (int k = 0; k < rates; ++k) work.scratch.loops->mu += dp[k] * row.by_loops[k];
   }
 }
 
@@ -110,10 +113,16 @@ ArcWork::ArcWork(const Scene& scene) : rows(scene), scratch(scene.model, scene.o
 ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   const bool has_line = work.line.use != LaunchLine::Use::none;
   const VecX& p = work.rows.active.empty() ? node.p : work.rows.momentum;
-  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), node.t};
+  ArcLoops* loops = nullptr;
+  if (work.scratch.loops) {
+    loops = &*work.scratch.loops;
+    loops->A = &node.loops.values.A;
+  }
+  return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), node.t, loops};
 }
 
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {
+  if (work.scratch.loops) work.scratch.loops->mu.setZero();
   if (work.rows.active.empty()) {
     const bool converged = solve_arc(scene.model, arc_problem(scene, tau, node, work),
                                      scene.options.max_iterations, work.arc, work.scratch);
@@ -125,6 +134,7 @@ bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   if (converged) return true;
   forget_impulses(work.rows);
   if (is_matched(&work.line)) work.line.lambda = 0;
+  if (work.scratch.loops) work.scratch.loops->mu.setZero();
   work.arc.v = node.v;
   converged = solve_held(scene, tau, node, work);
   work.iterations += work.arc.iterations;

@@ -50,7 +50,7 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
 }
 
 bool is_free(const ArcWork& work) {
-  return work.rows.active.empty() && work.line.use == LaunchLine::Use::none;
+  return work.rows.active.empty() && work.line.use == LaunchLine::Use::none && !work.scratch.loops;
 }
 
 /// Time and velocity at once; false leaves the arc's guess as it was.

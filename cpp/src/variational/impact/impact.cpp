@@ -58,6 +58,7 @@ void settle_velocities(const Scene& scene, Node& node) {
   const double speed = typical_speed(scene, node);
   node.v = node.p;
   solve(scene.model.tree, scene.model.packed, node.M, node.v);
+  if (node.loops.some) hold_velocity(node);
   for (int i = 0; i < node.touching; ++i) classify(scene, node, speed, node.contacts[i]);
 }
 
@@ -74,13 +75,14 @@ void tell_impact(const Node& node, int first, ImpactLaw law, bool fallback, Step
   report.impacts.push_back({node.t, first, count, node.touching, law, fallback});
 }
 
-void tell_reflections(const Node& node, const ImpactScratch& s, ImpactLaw law, StepReport& report) {
+void tell_reflections(const Node& node, const ImpactScratch& s, ImpactLaw law, bool fallback,
+                      StepReport& report) {
   const int first = static_cast<int>(report.impulses.size());
   for (const Impulse& impulse : s.impulses) {
     const Contact& c = node.contacts[impulse.pair];
     report.impulses.push_back(acted(node, c, impulse.lambda, Vec3::Zero()));
   }
-  tell_impact(node, first, law, false, report);
+  tell_impact(node, first, law, fallback, report);
 }
 
 /// What friction takes is not known before: no energy is there to be matched, and every law is
@@ -157,6 +159,8 @@ bool resolve_impact_at(const Scene& scene, double energy, Node& node, ImpactScra
   }
   set_contact_space(scene, node, s);
   const int m = node.touching;
+  // the arc's energy is not told where loops hold it
+  const ImpactLaw law = node.loops.some ? ImpactLaw::nodal_energy : options.law;
   s.impulses.clear();
   if (options.law == ImpactLaw::custom) {
     obey_custom_law(scene, node, s.impulses);
@@ -166,12 +170,12 @@ bool resolve_impact_at(const Scene& scene, double energy, Node& node, ImpactScra
       return false;
     }
     apply_impulses(scene, s, node);
-    if (options.law != ImpactLaw::nodal_energy) {
+    if (law != ImpactLaw::nodal_energy) {
       prepare_launch(scene, energy, static_cast<int>(report.impulses.size()), node, s);
       launch = &s.launch;
     }
   }
-  tell_reflections(node, s, options.law, report);
+  tell_reflections(node, s, law, law != options.law, report);
   if (options.certify) report.certificates.push_back(certify(s));
   settle_velocities(scene, node);
   return true;

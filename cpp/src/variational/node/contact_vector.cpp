@@ -17,7 +17,8 @@ void for_each(const TreeCoordinates& trees, Row& row, const F& f) {
 
 }  // namespace
 
-TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.packed.one_to_one) {
+TreeCoordinates::TreeCoordinates(const ModelData& model)
+    : one_to_one(model.packed.one_to_one && model.equalities.rows == 0) {
   const PackedTree& t = model.packed;
   of.resize(one_to_one ? t.trees.size() : 1);
   for (std::size_t i = 0; i < of.size() && one_to_one; ++i) {

@@ -12,13 +12,13 @@
 
 namespace saltus {
 
-/// The coordinates of every tree, in order of position; one list of all with mimic joints, which
-/// tie trees together.
+/// The coordinates of every tree, in order of position; one list of all with mimic joints or loops,
+/// which tie trees together.
 struct TreeCoordinates {
   explicit TreeCoordinates(const ModelData& model);
   std::vector<std::vector<int>> of;
-  bool one_to_one;
-  int most = 0;  ///< entries of the longest list
+  bool one_to_one;  ///< a list a tree
+  int most = 0;     ///< entries of the longest list
 };
 
 struct ContactVector {

@@ -15,11 +15,18 @@ Mat3 block_of(const Contact& at, const Contact& by) {
   return block;
 }
 
+/// column <- M_N^-1 row
+void set_column(const Scene& scene, const ContactVector& row, Node& node, ContactVector& column) {
+  solve(scene.model, scene.trees, row, node.M, node.column, column);
+  if (!node.loops.some) return;
+  add(scene.trees, 1, column, node.dense);
+  node.loops.solver.hold(node.dense);
+  take_from(scene.trees, node.dense, column);
+}
+
 void set_columns(const Scene& scene, Node& node, Contact& c) {
-  solve(scene.model, scene.trees, c.n, node.M, node.column, c.column);
-  for (int k = 0; k < 2 && c.friction > 0; ++k) {
-    solve(scene.model, scene.trees, c.t[k], node.M, node.column, c.t_column[k]);
-  }
+  set_column(scene, c.n, node, c.column);
+  for (int k = 0; k < 2 && c.friction > 0; ++k) set_column(scene, c.t[k], node, c.t_column[k]);
 }
 
 }  // namespace
@@ -72,7 +79,7 @@ void set_contact_matrix(const Scene& scene, Node& node, Neighbours& neighbours, 
   const auto& contacts = node.contacts;
   for (int i = 0; i < node.touching; ++i) {
     Contact& c = node.contacts[i];
-    solve(scene.model, scene.trees, c.n, node.M, node.column, c.column);
+    set_column(scene, c.n, node, c.column);
   }
   for (auto* each : {&G.start, &G.column}) each->clear();
   for (auto* each : {&G.value, &G.diagonal}) each->clear();

@@ -18,12 +18,14 @@ Node::Node(const Scene& scene, PairPool& pairs)
       w(scene.model.packed),
       kin(scene.model.tree),
       M(scene.model.tree, scene.model.packed),
+      loops(scene.model),
       broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
   q.setZero(scene.model.tree.n_q);
   for (VecX* x : {&p, &v, &dq, &dense, &column}) x->setZero(scene.model.tree.n_v);
   const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
   add_dry_joints(scene, *this);
+  M.lock = locks_of(scene.model);
 }
 
 void add_dry_joints(const Scene& scene, Node& node) {
@@ -65,6 +67,7 @@ bool set_velocity_at_node(const Scene& scene, Node& node) {
   node.has_factors = true;
   node.v = node.p;
   solve(model.tree, model.packed, node.M, node.v);
+  if (node.loops.some && !hold_loops(scene, node)) return false;
   return node.v.allFinite();
 }
 
@@ -81,7 +84,7 @@ void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node
   node.p = p;
   node.has_factors = false;
   // else nobody asks for them
-  if (scene.model.has_gaps() || !node.dry.empty()) place_frames(scene, node);
+  if (scene.model.has_gaps() || !node.dry.empty() || node.loops.some) place_frames(scene, node);
 }
 
 Contact::Motion motion_of(double u, double epsilon_u) {

@@ -16,6 +16,7 @@
 #include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/variational/report.hpp"
 #include "variational/node/contact_vector.hpp"
+#include "variational/node/equalities.hpp"
 #include "variational/node/pair_pool.hpp"
 #include "variational/node/scene.hpp"
 
@@ -63,6 +64,7 @@ struct Node {
   Kinematics kin;
   PackedMatrix M;
   bool has_factors = false;  ///< M is that of q
+  NodeEqualities loops;
 
   // scratch
   BroadPhase broad;
@@ -88,7 +90,8 @@ Contact::Motion motion_of(double u, double epsilon_u);
 void write_contact(const Scene& scene, double speed, int slot, const Pair& as, const Gap& g,
                    Node& node, Contact& c);
 
-/// M and v = M^-1 p at the node. @return false where the mass matrix is singular
+/// M and v = M^-1 p at the node; loops take out of p and v what would open them.
+/// @return false where the mass matrix is singular, or the rank of the loops changes
 bool set_velocity_at_node(const Scene& scene, Node& node);
 
 /// The slot of a pair, whose touch knows where its bodies are.

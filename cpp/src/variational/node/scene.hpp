@@ -22,7 +22,8 @@ struct Scene {
 
   /// ArcProblem::whole of these options.
   double whole_step() const {
-    return options.law == ImpactLaw::compensated && !model.forces.acts() ? options.h : 0;
+    const bool is_free = !model.forces.acts() && model.equalities.rows == 0;
+    return options.law == ImpactLaw::compensated && is_free ? options.h : 0;
   }
 };
 

@@ -6,6 +6,7 @@
 #include "saltus/collision/broad_phase.hpp"
 #include "saltus/collision/contact.hpp"
 #include "saltus/collision/parts.hpp"
+#include "saltus/model/close_loops.hpp"
 #include "saltus/tree/coordinates.hpp"
 #include "variational/law/contact_qp.hpp"
 
@@ -137,7 +138,12 @@ std::string list(const std::vector<Overlap>& overlaps) {
 bool step_out(const Model& model, const NearPairs& near, VecX& q) {
   const MatX phi_q = near.phi_q(model.n_v());
   const Eigen::LLT<Eigen::MatrixXd> M(model.mass_matrix(q));
-  const MatX columns = M.solve(phi_q.transpose());
+  MatX columns = M.solve(phi_q.transpose());
+  for (Eigen::Index k = 0; k < columns.cols() && model->equalities.rows > 0; ++k) {
+    // of a motion that is told only what is added to it
+    columns.col(k) = consistent_velocity(model, q, columns.col(k)) -
+                     consistent_velocity(model, q, VecX::Zero(model.n_v()));
+  }
   MatX G = phi_q * columns;
   // where there is no way out the multipliers stay finite
   G.diagonal() *= 1 + 1e-9;
@@ -145,6 +151,7 @@ bool step_out(const Model& model, const NearPairs& near, VecX& q) {
     const VecX dq = columns * contact_multipliers(G, near.phi());
     if (!dq.allFinite()) return false;
     integrate(model->tree, q, 1, dq, q);
+    if (model->equalities.rows > 0) q = close_loops(model, q);
   } catch (const StepError&) {
     return false;
   }

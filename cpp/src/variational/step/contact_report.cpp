@@ -39,6 +39,7 @@ void tell_residual(const ContactBlocks& W, double residual, StepReport& report) 
 void clear(StepReport& report) {
   report.iterations = report.arcs = report.sustained = 0;
   report.work.setZero();
+  report.loops.setZero();
   report.residual = report.friction_residual = 0;
   report.impacts.clear();
   report.impulses.clear();

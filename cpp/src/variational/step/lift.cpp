@@ -63,6 +63,7 @@ void Stepper::Impl::lift_out() {
   q_sunk = node.q;
   p_sunk = node.p;
   integrate(scene.model.tree, q_sunk, 1, lift, unlocated.q_end);
+  if (node.loops.some && !close_near(scene, node, node.t, unlocated.q_end, end)) return;
   if (!place_with_contacts(unlocated.q_end, p_sunk)) return place_back();
   const double T = 0.5 * node.p.dot(node.v), gain = node_energy(scene, node) - most;
   if (!(depth(node) < before) || gain > T) {

@@ -1,9 +1,11 @@
-// Overlap at the start: of parts that touch, and of whole shapes, whose parts may all lie on faces.
+// What a step does not start from: loops that are open, joints beyond their limits, overlap
+// of parts that touch, and of whole shapes, whose parts may all lie on faces.
 #include <algorithm>
 #include <iomanip>
 #include <map>
 #include <sstream>
 
+#include "saltus/model/close_loops.hpp"
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
@@ -83,6 +85,29 @@ void Stepper::Impl::check_overlap() {
                    "; move them apart (resolve_overlap does), exclude the two links (add_exclusion "
                    "of a ModelBuilder, <exclude link1=... link2=.../> in a file), or step without "
                    "collisions");
+}
+
+/// Rounding of a state that was written with 8 digits is closed by the first arc.
+void Stepper::Impl::check_loops() {
+  constexpr double rounding = 1e-7;
+  const NodeEqualities& loops = node.loops;
+  const auto tell = [&](int row, const char* what, double value, const char* unit) {
+    const std::string& name = equality_of(scene.model, row).name;
+    std::ostringstream text;
+    text << "loop \"" << name << "\" " << what << value << unit
+         << " at the start; close_loops(model, q) finds the configuration and the velocities "
+            "nearest to yours that keep it closed";
+    throw ModelError(text.str(), "loop", name);
+  };
+  for (int k = 0; k < loops.values.h.size(); ++k) {
+    const double h = std::abs(loops.values.h[k]), rate = std::abs(loops.rate[k]);
+    if (!(h <= rounding * loops.values.size[k])) tell(k, "is open by ", h, "");
+    const bool is_told = equality_of(scene.model, k).type == LoopType::prescribed;
+    if (!is_told && !(rate <= rounding * loops.rate_size[k]))
+      tell(k, "opens at a rate of ", rate, " a second");
+  }
+  const std::string weak = weak_loop();
+  if (!weak.empty()) throw ModelError("the start is no good one" + weak + "; start beside it");
 }
 
 }  // namespace saltus

@@ -1,9 +1,12 @@
 // What a step that fails says.
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "saltus/model/close_loops.hpp"
+#include "saltus/tree/coordinates.hpp"
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
@@ -49,6 +52,39 @@ std::string Stepper::Impl::fast_joint() const {
   return text.str();
 }
 
+namespace {
+
+/// Independent rows of the loops at q; the last that depends on others in `weak`.
+Eigen::Index rank_of_loops(const ModelData& model, const VecX& q, double t, int& weak) {
+  Kinematics kin(model.tree);
+  set_configuration(model.tree, q, kin);
+  EqualityValues values(model.tree.n_v, model.equalities.rows);
+  set_equalities(model.tree, model.equalities, kin, q, t, values);
+  Eigen::ColPivHouseholderQR<MatX> qr(model.tree.n_v, model.equalities.rows);
+  qr.setThreshold(1e-6);
+  qr.compute(values.A);
+  weak = qr.colsPermutation().indices()[std::min(qr.rank(), values.A.cols() - 1)];
+  return qr.rank();
+}
+
+}  // namespace
+
+/// A loop that has more freedom here than beside it, if one has.
+std::string Stepper::Impl::weak_loop() const {
+  if (!node.loops.some) return {};
+  const ModelData& model = scene.model;
+  VecX q = node.q, step(model.tree.n_v);
+  for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = 1e-2 * (1 + 0.1 * double(i % 7));
+  integrate(model.tree, node.q, 1, step, q);
+  int weak = -1, other = -1;
+  if (rank_of_loops(model, node.q, node.t, weak) >= rank_of_loops(model, q, node.t, other)) {
+    return {};
+  }
+  return "; loop \"" + equality_of(model, weak).name +
+         "\" is where two motions branch: its rows depend on each other here, and nothing says "
+         "which is the motion";
+}
+
 /// A step that fails: why, and what may help if shorter arcs have not been tried.
 void Stepper::Impl::raise(const std::string& why, const std::string& advice, int count) {
   cause = why;
@@ -82,7 +118,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
     default:
       text << "DEL residual " << arc.residual << " after " << arc.iterations
            << " iterations at t = " << node.t << " s, arc of " << arc.tau << " s" << held_list()
-           << fast_joint();
+           << fast_joint() << weak_loop();
   }
   raise(text.str(), "a smaller h helps where the motion is fast, " + h.str(), arc.iterations);
 }

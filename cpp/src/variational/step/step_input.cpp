@@ -71,6 +71,7 @@ void Stepper::Impl::add_dry_work() {
   VecX& after = arc.scratch.x;
   after = arc.rows.momentum;
   solve(scene.model.tree, scene.model.packed, node.M, after);
+  if (node.loops.some) node.loops.solver.meet(node.loops.values.drive, after);
   for (const int i : arc.rows.active) {
     const Row& row = arc.rows.row[i];
     if (!row.is_joint()) continue;
@@ -78,6 +79,14 @@ void Stepper::Impl::add_dry_work() {
     const double rates = dot(scene.trees, n, node.v) + dot(scene.trees, n, after);
     report.work[scene.model.forces.n_u() + 1] += row.p[0] * rates / 2;
   }
+}
+
+// What moves joints as they are told does work at the node, where it pushes.
+void Stepper::Impl::add_loop_work(const VecX& impulse) {
+  const double work = impulse.dot(node.loops.values.drive);
+  report.work[scene.model.forces.n_u() + 2] += work;
+  done += work;
+  done_size += std::abs(work);
 }
 
 }  // namespace saltus

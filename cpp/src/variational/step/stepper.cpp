@@ -27,6 +27,11 @@ constexpr int most_stepped = 4;
 
 /// The gradient of kappa is there for one-degree joints alone.
 void check_law(const ModelData& model, ImpactLaw law) {
+  if (law == ImpactLaw::custom && model.equalities.rows > 0) {
+    throw ModelError("a law of your own is not for models with loops, as \"" +
+                         model.equalities.all.front().name + "\" is; nodal_energy is",
+                     "loop", model.equalities.all.front().name);
+  }
   if (law != ImpactLaw::compensated) return;
   for (const PotentialFunction& each : model.mass.potentials.functions) {
     throw ModelError("law compensated needs third derivatives, which potential \"" + each.name +
@@ -196,7 +201,9 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) {
     fail(FlightOutcome::not_converged);
   }
-  if (!is_own) check_overlap();
+  if (is_own) return;
+  check_overlap();
+  if (node.loops.some) check_loops();
 }
 
 void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
@@ -207,6 +214,10 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
   if (outcome != FlightOutcome::arrived) fail(outcome);
   add_work();
   add_dry_work();
+  if (work.scratch.loops) {
+    report.loops += work.scratch.loops->mu;
+    add_loop_work(work.scratch.loops->mu);
+  }
   if (launch == nullptr) check_free_energy();
   note_start();
   ++report.arcs;
@@ -221,6 +232,10 @@ void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
   tell_half_kick(kick, report);
+  if (node.loops.some) {
+    report.loops += node.loops.impulse;
+    add_loop_work(node.loops.impulse);
+  }
   report.work[scene.model.forces.n_u() + 1] += kick.dry_work;
   check_energy();
   check_gaps();
@@ -232,7 +247,10 @@ void Stepper::Impl::end_arc(double t) {
 const Launch* Stepper::Impl::collide() {
   if (static_cast<int>(report.impacts.size()) >= most_impacts()) fail_impacts();
   const Launch* launch = nullptr;
-  if (!resolve_impact_at(scene, conserved_energy(), node, impact, report, launch)) fail_jammed();
+  const double energy_before = conserved_energy();
+  node.loops.impulse.setZero();
+  if (!resolve_impact_at(scene, energy_before, node, impact, report, launch)) fail_jammed();
+  if (node.loops.some) add_loop_work(node.loops.impulse);
   forget_velocities(memory);
   return launch;
 }
@@ -241,6 +259,7 @@ const Launch* Stepper::Impl::collide() {
 double Stepper::Impl::conserved_energy() {
   const ImpactLaw law = scene.options.law;
   if (law == ImpactLaw::shadow_energy) {
+    if (node.loops.some) return 0;
     // after the first impact of a step what is left of it
     if (!report.impacts.empty()) return impact.launch.energy;
     if (!measure(scene.model, last.q, last.p, scene.options.h, *flight.meter)) {
@@ -249,6 +268,7 @@ double Stepper::Impl::conserved_energy() {
     return flight.meter->energy.shadow;
   }
   if (law != ImpactLaw::discrete_energy && law != ImpactLaw::compensated) return 0;
+  if (node.loops.some) return 0;
   ArcWork& work = flight.work;
   work.line.use = LaunchLine::Use::none;
   if (report.arcs == 0) {  // at the start: an arc of no duration

@@ -27,6 +27,7 @@ struct Stepper::Impl {
     for (VecX* each : {&lift, &p_sunk}) each->setZero(scene.model.tree.n_v);
     last.p.setZero(scene.model.tree.n_v);
     report.work.setZero(scene.model.forces.n_u() + 3);
+    report.loops.setZero(scene.model.equalities.rows);
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
     report.settlings.reserve(64);
@@ -38,11 +39,13 @@ struct Stepper::Impl {
   void add_work();                    // likewise
   void add_work(double tau, const VecX& v, const ForceValues& forces, const VecX& wrench_force);
   void add_dry_work();  // likewise
+  void add_loop_work(const VecX& impulse);
   void step_once(State& state, bool is_own);
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
   void start(const State& state, bool is_own);
   void check_overlap();  // start_overlap.cpp
+  void check_loops();    // likewise
   void fly_one_arc(double left, const Launch* launch);
   void end_arc(double t);
   const Launch* collide();
@@ -78,6 +81,7 @@ struct Stepper::Impl {
   std::string contact_list() const;
   std::string held_list() const;
   std::string fast_joint() const;
+  std::string weak_loop() const;
 
   Scene scene;
   PairPool pool;

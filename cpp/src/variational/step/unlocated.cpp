@@ -34,6 +34,7 @@ void set_free_velocity(const Scene& scene, double tau, Node& node, ArcScratch& s
       s.dv = s.r;
       solve(model.tree, model.packed, s.J, s.dv);
       x.v += s.dv;
+      if (node.loops.some) node.loops.solver.meet(node.loops.values.drive, x.v);
       found = evaluate();
     }
     if (found) {
@@ -45,6 +46,7 @@ void set_free_velocity(const Scene& scene, double tau, Node& node, ArcScratch& s
     }
   }
   solve(model.tree, model.packed, node.M, x.v_free);
+  if (node.loops.some) node.loops.solver.meet(node.loops.values.drive, x.v_free);
 }
 
 void add_cut(const Contact& contact, double offset, Unlocated& x) {
@@ -85,6 +87,7 @@ bool cut_overlaps(const Scene& scene, double tau, const Node& node, const Node& 
 
 void place_end_node(const Scene& scene, double tau, const Node& node, Node& end, Unlocated& x) {
   integrate(scene.model.tree, node.q, tau, x.v, x.q_end);
+  if (node.loops.some) close_near(scene, node, node.t + tau, x.q_end, end);
   end.v = x.v;
   place_node(scene, node.t + tau, x.q_end, node.p, end);
 }
