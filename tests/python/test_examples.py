@@ -13,6 +13,10 @@ from tests.conftest import ROOT
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 PREDICTED = {
+    "balanced_lamp": [
+        "pushed, it turns at 0.400 rad/s, and 4 s later at 0.400 rad/s",
+        "on a spring of 0.1 m it is 1.21 rad away after 1 s",
+    ],
     "billiard_break": [
         "1 impact, at 0.102870 s: 31 contacts",
         "momentum at the end 0.850000 kg m/s along, 0.000000 across",

@@ -71,6 +71,7 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   Packed w(t);
   SecondPartials rows(t);
   set_first_partials(tree, t, q, v, w);
+  check_springs(t, w);
   const double V = potential_energy(t, w);
   second_pass(t, w);
   multiply_pairs(t, w, rows);

@@ -20,7 +20,8 @@ TEST(Curve, GoesThroughItsKnotsAndIsTwiceDifferentiableThere) {
       const double h = 1e-9;
       EXPECT_NEAR(c(x[k] - h).slope, c(x[k] + h).slope, 1e-7) << k;
       const bool is_end = k == 0 || k + 1 == x.size();
-      if (!is_end || !clamped) EXPECT_NEAR(c(x[k] - h).second, c(x[k] + h).second, 1e-6) << k;
+      if (is_end && clamped) continue;
+      EXPECT_NEAR(c(x[k] - h).second, c(x[k] + h).second, 1e-6) << k;
     }
     EXPECT_NEAR(c(-1).slope, clamped ? 0.4 : c(-3).slope, 1e-13);
     EXPECT_NEAR(c(2).slope, clamped ? -2 : c(5).slope, 1e-13);

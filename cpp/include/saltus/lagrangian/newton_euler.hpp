@@ -32,7 +32,7 @@ SALTUS_EXPORT void set_accelerations(const Tree& tree, const PackedTree& packed,
                                      PackedForces& out);
 
 /// tau: what the joints must do for these accelerations, gravity and all other potentials acting,
-/// armature included; needs place, move and set_accelerations. @throws StepError as first_pass.
+/// armature included; needs place, move and set_accelerations. @throws StepError as check_springs.
 SALTUS_EXPORT void newton_euler(const PackedTree& packed, const Packed& w, PackedForces& out);
 
 /// tau <- what gravity does, S.[h x g; m g] of the subtrees, less what is compensated; needs

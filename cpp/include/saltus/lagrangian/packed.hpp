@@ -91,7 +91,7 @@ SALTUS_EXPORT void set_rates(const Tree& tree, const PackedTree& packed, const V
 SALTUS_EXPORT void place(const PackedTree& packed, Packed& w);
 /// V and W; needs place and set_rates.
 SALTUS_EXPORT void move(const PackedTree& packed, Packed& w);
-/// L_v, L_q; needs move. @throws StepError where a spring with a length has both ends in one point.
+/// L_v, L_q; needs move.
 SALTUS_EXPORT void first_pass(const PackedTree& packed, Packed& w);
 /// L_v', L_q' of an arc of duration tau; needs first_pass.
 SALTUS_EXPORT void arc_pass(const PackedTree& packed, double tau, Packed& w);

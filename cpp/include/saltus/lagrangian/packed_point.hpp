@@ -53,6 +53,10 @@ SALTUS_EXPORT void add_pull_partials(const PackedPoint& point, const Vec3& P, co
 SALTUS_EXPORT void add_motion(const Packed& w, const PackedPoint& point, const Vec3& P, double sign,
                               Eigen::Ref<MatX, 0, Eigen::OuterStride<>> columns);
 
+/// For who uses L_q; needs place. Where the ends of a spring meet it pulls in no direction.
+/// @throws StepError that names the spring, unless its length is 0
+SALTUS_EXPORT void check_springs(const PackedTree& packed, const Packed& w, double time = 0);
+
 /// What forces on balls add to the L_q' and L_v' of an arc, which arc_pass makes without them:
 /// Q, and tau/2 c2 f x Q (packed.hpp). Needs arc_pass.
 SALTUS_EXPORT void add_ball_pull(const PackedTree& packed, double tau, const VecX& Q, Packed& w);

@@ -9,6 +9,7 @@
 #include "lagrangian/packed/potentials.hpp"
 
 #include <cmath>
+#include <sstream>
 
 #include "saltus/error.hpp"
 
@@ -19,16 +20,6 @@ namespace {
 double tension_of(const PackedSpring& spring, double d) {
   if (spring.is_smooth()) return spring.stiffness;
   return d > 0 ? spring.stiffness * (1 - spring.length / d) : 0;
-}
-
-void check_lengths(const PackedPotentials& all, const Packed& w) {
-  for (std::size_t k = 0; k < all.springs.size(); ++k) {
-    if (all.springs[k].is_smooth() || w.springs[k].d > 0) continue;
-    throw StepError("spring \"" + all.springs[k].name +
-                        "\" has both ends in one point, where its force has no direction; one of "
-                        "length 0 may pass there",
-                    0, 0, 0);
-  }
 }
 
 void check_answer(const PotentialFunction& V, const char* what, const MatX& x, Eigen::Index rows,
@@ -120,7 +111,6 @@ void set_pull(const PackedTree& t, Packed& w) {
 
 void add_potential_partials(const PackedTree& t, Packed& w) {
   const PackedPotentials& all = *t.potentials;
-  check_lengths(all, w);
   add_to_slots(t, w.pull, 1, 1, w.first);
   if (all.functions.empty()) return;
   w.function_pull = -gradients(all, w);
@@ -210,7 +200,7 @@ double potential_energy_of(const PackedTree& t, const Packed& w) {
 
 void add_potential_torques(const PackedTree& t, const Packed& w, PackedForces& out) {
   const PackedPotentials& all = *t.potentials;
-  check_lengths(all, w);
+  check_springs(t, w);
   const auto subtract = [&](const VecX& pull, double by) {
     for (std::size_t c = 0; c < t.slot_of_velocity.size(); ++c) {
       *at(out.tau, t.slot_of_velocity[c]) -= by * pull[static_cast<Eigen::Index>(c)];
@@ -230,3 +220,18 @@ void add_compensation(const PackedTree& t, const Packed& w, PackedForces& out) {
 }
 
 }  // namespace saltus::packed
+
+namespace saltus {
+
+void check_springs(const PackedTree& t, const Packed& w, double time) {
+  for (std::size_t k = 0; t.potentials != nullptr && k < t.potentials->springs.size(); ++k) {
+    const PackedSpring& spring = t.potentials->springs[k];
+    if (spring.is_smooth() || w.springs[k].d > 0) continue;
+    std::ostringstream text;
+    text << "spring \"" << spring.name << "\" has both ends in one point at t = " << time
+         << " s, where its force has no direction; one of length 0 may pass there";
+    throw StepError(text.str(), time, 0, 0);
+  }
+}
+
+}  // namespace saltus

@@ -38,7 +38,7 @@ void prepare_potentials(const PackedTree& t, Packed& w);
 
 /// Places springs; writes w.pull. Needs place.
 void set_pull(const PackedTree& t, Packed& w);
-/// To L_v and L_q. @throws StepError, see first_pass
+/// To L_q.
 void add_potential_partials(const PackedTree& t, Packed& w);
 /// To the L_q' and L_v' of balls.
 void add_potential_arcs(const PackedTree& t, double tau, Packed& w);
@@ -46,11 +46,11 @@ void add_potential_arcs(const PackedTree& t, double tau, Packed& w);
 void add_potential_scale(const PackedTree& t, double tau, Packed& w);
 /// To G, and the first columns of w.coupled.
 void add_potential_generators(const PackedTree& t, Packed& w);
-/// Slopes of curves, by velocity: calls f(velocity, slope).
+/// Slopes of curves: to J.added, to L_qq v.
 void add_curve_pivots(const PackedTree& t, const Packed& w, double tau, PackedMatrix& J);
 void add_curve_products(const PackedTree& t, const Packed& w, PackedProducts& out);
 double potential_energy_of(const PackedTree& t, const Packed& w);
-/// To the torques of newton_euler. @throws StepError, see first_pass
+/// To the torques of newton_euler. @throws StepError as check_springs
 void add_potential_torques(const PackedTree& t, const Packed& w, PackedForces& out);
 /// To the torques of gravity_pass: what is compensated.
 void add_compensation(const PackedTree& t, const Packed& w, PackedForces& out);

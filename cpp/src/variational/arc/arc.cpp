@@ -51,6 +51,7 @@ void evaluate(const ModelData& model, const ArcProblem& a, const VecX& v, ArcScr
   set_rates(tree, packed, v, s.w);
   place(packed, s.w);
   move(packed, s.w);
+  if (packed.potentials != nullptr) check_springs(packed, s.w, a.t + a.tau / 2);
   first_pass(packed, s.w);
   if (s.has_forces) add_forces(model, a.t + a.tau / 2, v, s);
   s.has_second = false;

@@ -1,5 +1,7 @@
 #include "variational/arc/energy_meter.hpp"
 
+#include "saltus/lagrangian/packed_point.hpp"
+
 namespace saltus {
 
 EnergyMeter::EnergyMeter(const ModelData& model)
@@ -24,6 +26,7 @@ bool measure(const ModelData& model, const VecX& q, const VecX& p, double h, Ene
   move(packed, m.w);
   first_pass(packed, m.w);
   second_pass(packed, m.w);
+  check_springs(packed, m.w);
   free_motion(tree, packed, m.w, m.M, m.free);
 
   m.energy.kinetic = 0.5 * p.dot(m.v);
