@@ -73,7 +73,7 @@ def test_a_ball_on_a_racket_is_exact() -> None:
     h = 0.01
     run = saltus.simulate(model, state=state, duration=1.0, h=h)
     assert len(run.impacts) >= 2
-    # Between impacts a parabola. An arc ends where the racket is then: its gap is that of the motion.
+    # Between impacts a parabola. An arc ends where the racket is then.
     z, v, t = 1.2, 0.0, 0.0
     for k, impact in enumerate(run.impacts["t"][:2]):
         tau = impact - t

@@ -109,7 +109,10 @@ def _of_impact(whole: Callable[[Impact], str]) -> Callable[[Impact], str]:
 
 
 def _of_outcome(whole: Callable[[ImpactOutcome], str]) -> Callable[[ImpactOutcome], str]:
-    return lambda self: without_tails(whole(self))
+    def text(self: ImpactOutcome) -> str:
+        return without_tails(whole(self))
+
+    return text
 
 
 def _of_report(self: StepReport) -> str:

@@ -181,7 +181,10 @@ def _mimic(self: Mimic) -> str:
 
 
 def _short(whole: Callable[[Any], str]) -> Callable[[Any], str]:
-    return lambda self: without_tails(whole(self))
+    def text(self: object) -> str:
+        return without_tails(whole(self))
+
+    return text
 
 
 # Of the compiled classes themselves, as impacts.py does.
