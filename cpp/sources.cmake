@@ -99,6 +99,7 @@ set(SALTUS_SOURCES
   cpp/src/model/shape_checks.cpp
   cpp/src/model/solids.cpp
   cpp/src/model/spring_verbs.cpp
+  cpp/src/model/stiff_damping.cpp
   cpp/src/model/topology.cpp
   cpp/src/model/unsaid.cpp
   cpp/src/model/visuals.cpp

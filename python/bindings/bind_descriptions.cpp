@@ -24,7 +24,7 @@ void check_no_functions(const ModelDescription& d) {
 void bind_descriptions(py::class_<Model>& c, py::module_& m) {
   m.attr("_DESCRIPTION_VERSION") = description_version;
   c.def(
-       "_description", [](const Model& m) { return to_plain(*m->description); },
+       "_description", [](const Model& model) { return to_plain(*model->description); },
        "All that the model is built of, as plain data: dicts by name, lists, numbers, arrays.")
       .def_static(
           "_of_description",
@@ -36,9 +36,9 @@ void bind_descriptions(py::class_<Model>& c, py::module_& m) {
           py::arg("description"), py::kw_only(), py::arg("collisions") = true,
           py::arg("version") = description_version)
       .def(py::pickle(
-          [](const Model& m) -> py::tuple {
-            check_no_functions(*m->description);
-            return py::make_tuple(to_plain(*m->description), !m->pairs.empty());
+          [](const Model& model) -> py::tuple {
+            check_no_functions(*model->description);
+            return py::make_tuple(to_plain(*model->description), !model->pairs.empty());
           },
           [](const py::tuple& t) {
             const Model whole =

@@ -8,6 +8,7 @@
 #include "force_docs.hpp"
 #include "pickle.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "saltus/model/stiff_damping.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -118,6 +119,12 @@ void bind_model_forces(py::class_<Model>& c) {
   };
   c.def_property_readonly(
        "n_u", [](const Model& m) { return m->forces.n_u(); }, "number of actuators")
+      .def(
+          "stiff_joints",
+          [](const Model& m, double h, const Coordinates& q) {
+            return stiff_joints(m, h, to_vector(q, m));
+          },
+          docs::stiff_joints, py::arg("h"), py::arg("q") = py::none())
       .def_property_readonly(
           "control_names", [](const Model& m) { return names_of(m->forces.actuators); },
           "names of the actuators, in the order of controls")

@@ -1,5 +1,7 @@
 // Variational floor: the stepper.
+#include <atomic>
 #include <mutex>
+#include <thread>
 
 #include "bindings.hpp"
 #include "control.hpp"
@@ -88,10 +90,32 @@ const Model& to_model(const Unchecked<Model>& model) {
                        "; saltus.load_urdf makes a Model of it");
 }
 
-/// Advancing releases the interpreter's lock, so a second thread could come in: the mutex.
+/// Advancing releases the interpreter's lock, so a second thread could come in: the mutex. What a
+/// step asks (a law, a force, a motion) comes in by the same thread: that would wait for itself.
 struct SharedStepper {
   Stepper stepper;
   std::mutex mutex;
+  std::atomic<std::thread::id> owner;
+
+  /// The stepper for one call.
+  struct Turn {
+    explicit Turn(SharedStepper& of) : shared(of) {
+      if (shared.owner == std::this_thread::get_id()) {
+        throw ModelError(
+            "the stepper is in a step, which asks this function: it can neither advance it nor "
+            "read its report; another Stepper can");
+      }
+      shared.mutex.lock();
+      shared.owner = std::this_thread::get_id();
+    }
+    ~Turn() {
+      shared.owner = std::thread::id();
+      shared.mutex.unlock();
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+    SharedStepper& shared;
+  };
 
   SharedStepper(const Model& model, const StepOptions& options) : stepper(model, options) {}
 
@@ -99,12 +123,12 @@ struct SharedStepper {
                 const Velocities& qfrc) {
     const ForceInput input = to_input(control, forces, qfrc, stepper.model());
     const py::gil_scoped_release release;
-    const std::lock_guard lock(mutex);
+    const Turn turn(*this);
     return stepper.advance(state, input);
   }
   NamedReport report() {
     const py::gil_scoped_release release;
-    const std::lock_guard lock(mutex);
+    const Turn turn(*this);
     return with_names(stepper.model(), stepper.report());
   }
 };

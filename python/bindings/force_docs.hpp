@@ -172,4 +172,27 @@ ModelBuilder
     The builder itself.
 )";
 
+constexpr auto stiff_joints = R"(Joints whose damping stops them within a step.
+
+They have z = h d (M^-1)_ii > 4, d the damping. The midpoint rule would turn their velocity round in
+each step; they get the rule that damps it (positions are of first order then). A smaller h, or less
+damping, makes them exact.
+
+Parameters
+----------
+h : float
+    [s] the step.
+q : array_like, shape (n_q,), or mapping, optional
+    Where; `neutral()` if not given.
+
+Returns
+-------
+list of str
+
+Raises
+------
+ModelError
+    Where h is not positive.
+)";
+
 }  // namespace saltus::bindings::docs

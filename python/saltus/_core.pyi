@@ -1798,6 +1798,34 @@ class Model:
             On an unknown name, a wrong shape, a value that is not finite, a quaternion that is not of
             length 1 (to 1e-6; within that it is normalised).
         """
+    def stiff_joints(
+        self,
+        h: typing.SupportsFloat | typing.SupportsIndex,
+        q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None,
+    ) -> list[str]:
+        """
+        Joints whose damping stops them within a step.
+
+        They have z = h d (M^-1)_ii > 4, d the damping. The midpoint rule would turn their velocity round in
+        each step; they get the rule that damps it (positions are of first order then). A smaller h, or less
+        damping, makes them exact.
+
+        Parameters
+        ----------
+        h : float
+            [s] the step.
+        q : array_like, shape (n_q,), or mapping, optional
+            Where; `neutral()` if not given.
+
+        Returns
+        -------
+        list of str
+
+        Raises
+        ------
+        ModelError
+            Where h is not positive.
+        """
     def velocities(
         self,
         q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],

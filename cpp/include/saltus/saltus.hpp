@@ -6,6 +6,7 @@
 #include "saltus/model/close_loops.hpp"
 #include "saltus/model/dynamics.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "saltus/model/stiff_damping.hpp"
 #include "saltus/rollout/batch.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/urdf/load_urdf.hpp"

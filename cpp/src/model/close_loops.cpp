@@ -1,6 +1,7 @@
 #include "saltus/model/close_loops.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -102,6 +103,7 @@ VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<in
   double open = openness(values);
   for (int k = 0; k < most_iterations && open > rounding; ++k) {
     VecX dq = Steps(*model, q, values.A, keep).step(with_zeros(-values.h, keep.size()));
+    for (const int kept : keep) dq[kept] = 0;  // also where the loops would not have it
     double after = open;
     VecX q_new;
     for (int halving = 0; halving < most_halvings && !(after < open); ++halving, dq /= 2) {
@@ -127,10 +129,13 @@ VecX consistent_velocity(const Model& model, const VecRef& q, const VecRef& v,
   const EqualityValues values = values_at(*model, at, t);
   const Steps steps(*model, at, values.A, keep);
   const VecX rates = values.A.transpose() * v - values.drive;
-  const VecX out = v + steps.step(with_zeros(-rates, keep.size()));
+  VecX out = v + steps.step(with_zeros(-rates, keep.size()));
+  for (const int kept : keep) out[kept] = v[kept];
   const VecX left = values.A.transpose() * out - values.drive;
+  // what stands still beside what is fast has the rounding of that
+  const double fastest = std::max(out.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
   const VecX size =
-      values.A.cwiseAbs().transpose() * (out.cwiseAbs() + v.cwiseAbs()) + values.drive.cwiseAbs();
+      values.A.cwiseAbs().transpose() * VecX::Constant(v.size(), fastest) + values.drive.cwiseAbs();
   for (int row = 0; row < model->equalities.rows; ++row) {
     if (std::abs(left[row]) <= 1e-10 * size[row]) continue;
     const Equality& loop = equality_of(*model, row);

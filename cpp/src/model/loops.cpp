@@ -18,8 +18,9 @@ std::string coupling_name(const std::string& joint) { return joint + " coupling"
 
 void check_loop(const LoopSpec& loop) {
   if (loop.name.empty()) throw ModelError("a loop has no name", "loop", "");
-  if (loop.type == LoopType::coupling) {
-    fail(loop.name, "is a coupling; add_coupling makes these");
+  if (loop.type == LoopType::coupling || loop.type == LoopType::prescribed) {
+    fail(loop.name, "is of type " + loop_type_name(loop.type) +
+                        "; add_coupling and set_prescribed make these");
   }
   if (loop.a.link == loop.b.link) {
     fail(loop.name, "has both ends on link " + quoted(loop.a.link) + "; they are on two links");

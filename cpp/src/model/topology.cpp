@@ -148,8 +148,9 @@ void Assembly::resolve_mimic() {
 void Assembly::number_coordinates() {
   first_velocity_.assign(d_.joints.size(), -1);
   std::set<std::string> names, velocity_names;
-  for (const int j : order_) {
-    if (base_[j] != j) continue;
+  for (const int at : order_) {  // as the tree meets them: a mimic joint may come before its base
+    const int j = base_[at];
+    if (first_velocity_[j] >= 0) continue;
     const JointSpec& joint = d_.joints[j];
     first_velocity_[j] = static_cast<int>(m_.velocity_names.size());
     for (const Axis& axis : composition(joint.type)) {

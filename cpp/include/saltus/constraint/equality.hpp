@@ -38,13 +38,13 @@ struct Equality {
     int joint = -1;
     Pose X_JE = {};
   };
-  std::string name;
+  std::string name = {};
   LoopType type = LoopType::point;
-  End a, b;
-  double distance = 0;                               ///< [m]
-  std::vector<double> polynomial;                    ///< of a coupling, by rising powers
-  std::function<PrescribedMotion(double t)> motion;  ///< of a prescribed joint
-  int first = 0;                                     ///< row
+  End a = {}, b = {};
+  double distance = 0;                                    ///< [m]
+  std::vector<double> polynomial = {};                    ///< of a coupling, by rising powers
+  std::function<PrescribedMotion(double t)> motion = {};  ///< of a prescribed joint
+  int first = 0;                                          ///< row
 };
 
 /// Frozen; written by build().

@@ -77,6 +77,7 @@ double momentum_residual(const ModelData& model, const ArcProblem& a, const VecX
     return std::numeric_limits<double>::infinity();
   }
   s.r = a.p + a.tau / 2 * s.L_q - s.L_v;
+  if (s.shift.size() > 0) s.r += a.tau / 2 * shifted_damping(model, v, s);
   if (a.launch != nullptr) {
     s.r += a.launch->lambda * a.launch->n;
     s.scale += std::abs(a.launch->lambda) * a.launch->n.cwiseAbs();

@@ -86,6 +86,7 @@ struct ArcScratch {
   std::vector<PlacedDamper> dampers;
   const ForceInput* input = nullptr;  ///< what drives the step; written by the stepper
   bool has_forces = false;            ///< likewise: the model or the input has some
+  VecX shift;                         ///< (n_v) 2 beta - 1 of stiff damping; empty where none is
   Packed w;
   bool has_second = false;  ///< second_pass sums in place: once an evaluation
   PackedMatrix J;

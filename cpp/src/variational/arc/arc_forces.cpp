@@ -91,6 +91,7 @@ void add_forces(const ModelData& model, double t, const VecX& v, ArcScratch& s) 
     double* slope = at(s.w.slope, slot);
     slope[0] = s.forces.Q_q[c];
     slope[lanes] = s.forces.Q_v[c];
+    if (s.shift.size() > 0) slope[lanes] -= s.shift[c] * model.forces.damping[c];
   }
   set_geared_slopes(model, s);
 }

@@ -12,6 +12,11 @@ void prepare_forces(const ModelData& model, ArcScratch& s);
 /// s.w. Needs first_pass.
 void add_forces(const ModelData& model, double t, const VecX& v, ArcScratch& s);
 
+/// What of stiff damping an arc opens with beyond a half of it (stiff_damping.hpp), by velocity.
+inline auto shifted_damping(const ModelData& model, const VecX& v, const ArcScratch& s) {
+  return -s.shift.cwiseProduct(model.forces.damping).cwiseProduct(v);
+}
+
 /// Writes what forces that join coordinates have in Newton's matrix: the columns of dampers and
 /// functions in s.w, and generators of dampers and wrenches. Needs second_pass.
 void add_force_partials(const ModelData& model, ArcScratch& s);

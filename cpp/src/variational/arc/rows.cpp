@@ -199,6 +199,7 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
     if (is_known || c.friction > 0) activate(scene, rows.count - 1, node, rows);
   }
   for (std::size_t k = 0; k < node.dry.size(); ++k) {
+    if (node.is_still(k)) continue;
     add_joint_row(static_cast<int>(k), tau, memory, rows);
     activate(scene, rows.count - 1, node, rows);
   }

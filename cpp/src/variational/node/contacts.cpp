@@ -71,7 +71,13 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
     const Gap other = pair_gap(tree, node.kin, pair, motion);
     write_contact(scene, speed, slot, pair, other, node, c);
   }
-  if (g.phi <= pair.touch || (c.u < 0 && g.phi <= -c.u * soon)) {
+  const bool touches = g.phi <= pair.touch || (c.u < 0 && g.phi <= -c.u * soon);
+  if (touches && node.loops.some && is_held_by_loops(scene, c.n, node)) {
+    // nothing pushes it away; so long as it does not close it is no contact
+    if (c.motion == Contact::Motion::approaches) node.driven_together = slot;
+    return;
+  }
+  if (touches) {
     node.contact_of[slot] = node.touching++;
   }
 }
@@ -211,6 +217,7 @@ bool find_contacts(const Scene& scene, Node& node) {
                     most_touch(scene, node), node.broad);
   }
   reset_contacts(node);
+  node.driven_together = -1;
   const bool is_at_a_stop = is_near_a_stop(scene, node);
   if (node.broad.candidates.empty() && !is_at_a_stop) return true;
   if (!node.has_factors && !set_velocity_at_node(scene, node)) return false;

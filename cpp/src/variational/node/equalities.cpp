@@ -1,6 +1,7 @@
 #include "variational/node/equalities.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "saltus/tree/coordinates.hpp"
@@ -15,7 +16,7 @@ NodeEqualities::NodeEqualities(const ModelData& model)
   if (!some) return;
   solver = EqualitySolver(model.tree.n_v, model.equalities.rows);
   set_locks(model, solver);
-  for (VecX* each : {&rate, &rate_size, &impulse}) each->setZero(model.equalities.rows);
+  for (VecX* each : {&rate, &kick, &impulse}) each->setZero(model.equalities.rows);
 }
 
 /// An inertia as large as those there are.
@@ -44,6 +45,24 @@ void set_locks(const ModelData& model, EqualitySolver& solver) {
   }
 }
 
+/// Joints with dry friction that the loops hold: a row of theirs would be the rounding of nothing.
+void note_still_joints(const Scene& scene, Node& node) {
+  node.loops.still.assign(node.dry.size(), 0);
+  for (std::size_t k = 0; k < node.dry.size(); ++k) {
+    node.loops.still[k] = is_held_by_loops(scene, node.dry[k].n, node);
+  }
+}
+
+bool is_held_by_loops(const Scene& scene, const ContactVector& row, Node& node) {
+  constexpr double rounding = 1e-12;
+  node.column.setZero();
+  add(scene.trees, 1, row, node.column);
+  solve(scene.model.tree, scene.model.packed, node.M, node.column);
+  const double free = dot(scene.trees, row, node.column);
+  node.loops.solver.hold(node.column);
+  return !(dot(scene.trees, row, node.column) > rounding * free);
+}
+
 bool hold_loops(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
   NodeEqualities& loops = node.loops;
@@ -57,13 +76,15 @@ bool hold_loops(const Scene& scene, Node& node) {
     solver.Y.col(k) = node.column;
   }
   if (!solver.factorize()) return false;
-  loops.rate = -loops.values.drive;
-  loops.rate.noalias() += A.transpose() * node.v;
-  loops.rate_size = loops.values.drive.cwiseAbs();
-  loops.rate_size.noalias() += A.cwiseAbs().transpose() * node.v.cwiseAbs();
   solver.meet(loops.values.drive, node.v);
   node.p.noalias() += A * solver.mu;
   loops.impulse = solver.mu;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const double own = std::abs(solver.C.col(k).dot(solver.Y.col(k)));
+    loops.rate[k] = std::abs(solver.mu[k]) * own;
+    loops.kick[k] = std::abs(solver.mu[k]) * std::sqrt(own);
+  }
+  note_still_joints(scene, node);
   return true;
 }
 

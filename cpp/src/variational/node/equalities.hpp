@@ -12,17 +12,21 @@ namespace saltus {
 
 struct Node;
 struct Scene;
+struct ContactVector;
 
 /// Written by set_velocity_at_node.
 struct NodeEqualities {
   NodeEqualities() = default;
   explicit NodeEqualities(const ModelData& model);
-  bool some = false;        ///< the model has loops; all below is empty where not
-  EqualityValues values;    ///< at the node's q
-  EqualitySolver solver;    ///< of M and A there
-  VecX rate, rate_size;     ///< (m) A^T v - drive before loops had their say, and of its terms
+  bool some = false;      ///< the model has loops; all below is empty where not
+  EqualityValues values;  ///< at the node's q
+  EqualitySolver solver;  ///< of M and A there
+  /// (m) What p was away from momenta that keep the loops closed: rate that had to be taken out,
+  /// and the root of twice the energy that went with it [sqrt J].
+  VecX rate, kick;
   VecX impulse;             ///< (m) what they pushed there: what `p` has gained along A
   std::vector<int> joints;  ///< whose poses h needs
+  std::vector<char> still;  ///< (dry) joints that the loops let not move
 };
 
 /// What is added to the diagonal of M and J at coordinates that move as they are told, whose own
@@ -33,6 +37,11 @@ void set_locks(const ModelData& model, EqualitySolver& solver);
 /// Holds loops at a node whose M is factored, p and v = M^-1 p written.
 /// @return false where the rank of the loops changes
 bool hold_loops(const Scene& scene, Node& node);
+
+/// True where no impulse along the row moves anything: loops, or what is told, hold it. Needs the
+/// node's factors; writes node.column.
+bool is_held_by_loops(const Scene& scene, const ContactVector& row, Node& node);
+void note_still_joints(const Scene& scene, Node& node);
 
 /// The same of a v = M^-1 p that impulses have changed since: changes p and v.
 void hold_velocity(Node& node);

@@ -66,6 +66,8 @@ struct Node {
   bool has_factors = false;  ///< M is that of q
   NodeEqualities loops;
 
+  int driven_together = -1;  ///< slot of a pair that loops, or what is told, close; or -1
+
   // scratch
   BroadPhase broad;
   VecX dq, column;
@@ -75,6 +77,8 @@ struct Node {
   int contact_at(int slot) const {
     return slot < static_cast<int>(contact_of.size()) ? contact_of[slot] : -1;
   }
+  /// Loops let joint dry[k] not move.
+  bool is_still(std::size_t k) const { return loops.some && loops.still[k] != 0; }
   double sunk_at(int slot) const { return slot < static_cast<int>(sunk.size()) ? sunk[slot] : 0; }
 };
 

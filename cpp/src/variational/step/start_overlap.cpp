@@ -1,6 +1,7 @@
 // What a step does not start from: loops that are open, joints beyond their limits, overlap
 // of parts that touch, and of whole shapes, whose parts may all lie on faces.
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -99,12 +100,13 @@ void Stepper::Impl::check_loops() {
             "nearest to yours that keep it closed";
     throw ModelError(text.str(), "loop", name);
   };
+  const double speed = typical_speed(scene, node) * std::sqrt(scene.total_mass);
   for (int k = 0; k < loops.values.h.size(); ++k) {
-    const double h = std::abs(loops.values.h[k]), rate = std::abs(loops.rate[k]);
+    const double h = std::abs(loops.values.h[k]);
     if (!(h <= rounding * loops.values.size[k])) tell(k, "is open by ", h, "");
     const bool is_told = equality_of(scene.model, k).type == LoopType::prescribed;
-    if (!is_told && !(rate <= rounding * loops.rate_size[k]))
-      tell(k, "opens at a rate of ", rate, " a second");
+    if (is_told || loops.kick[k] <= rounding * speed + 1e-12) continue;
+    tell(k, "opens at a rate of ", loops.rate[k], " a second");
   }
   const std::string weak = weak_loop();
   if (!weak.empty()) throw ModelError("the start is no good one" + weak + "; start beside it");

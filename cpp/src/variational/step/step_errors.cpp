@@ -76,6 +76,11 @@ std::string Stepper::Impl::weak_loop() const {
   VecX q = node.q, step(model.tree.n_v);
   for (Eigen::Index i = 0; i < step.size(); ++i) step[i] = 1e-2 * (1 + 0.1 * double(i % 7));
   integrate(model.tree, node.q, 1, step, q);
+  try {  // only where the loops are closed their rows depend on each other as they do here
+    q = close_loops(scene.shared, q, {}, node.t);
+  } catch (const ModelError&) {
+    return {};
+  }
   int weak = -1, other = -1;
   if (rank_of_loops(model, node.q, node.t, weak) >= rank_of_loops(model, q, node.t, other)) {
     return {};
@@ -83,6 +88,31 @@ std::string Stepper::Impl::weak_loop() const {
   return "; loop \"" + equality_of(model, weak).name +
          "\" is where two motions branch: its rows depend on each other here, and nothing says "
          "which is the motion";
+}
+
+/// An arc of time stepping leaves loops closed, or there is none.
+void Stepper::Impl::check_closed() {
+  if (!node.loops.some) return;
+  constexpr double rounding = 1e-7;
+  const EqualityValues& values = node.loops.values;
+  for (int k = 0; k < values.h.size(); ++k) {
+    if (std::abs(values.h[k]) <= rounding * values.size[k]) continue;
+    blames_contact = false;
+    std::ostringstream text;
+    text << "loop \"" << equality_of(scene.model, k).name
+         << "\" cannot be kept closed after t = " << node.t << " s: it would open by "
+         << std::abs(values.h[k]);
+    raise(text.str(), "loops that contradict each other, or what is told, have no motion", 0);
+  }
+}
+
+/// No impulse keeps the two apart.
+void Stepper::Impl::fail_driven() {
+  halves_help = blames_contact = false;
+  std::ostringstream text;
+  text << name_of(node.driven_together) << " closes at t = " << node.t
+       << " s, and loops or prescribed motions drive it on";
+  raise(text.str(), "let the motion end before, or exclude the pair", 0);
 }
 
 /// A step that fails: why, and what may help if shorter arcs have not been tried.

@@ -3,9 +3,33 @@
 
 #include <cmath>
 
+#include "saltus/model/stiff_damping.hpp"
+#include "variational/arc/arc_forces.hpp"
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
+
+// The gradient of kappa is there for one-degree joints alone.
+void check_law(const ModelData& model, ImpactLaw law) {
+  if (law == ImpactLaw::custom && model.equalities.rows > 0) {
+    throw ModelError("a law of your own is not for models with loops, as \"" +
+                         model.equalities.all.front().name + "\" is; nodal_energy is",
+                     "loop", model.equalities.all.front().name);
+  }
+  if (law != ImpactLaw::compensated) return;
+  for (const PotentialFunction& each : model.mass.potentials.functions) {
+    throw ModelError("law compensated needs third derivatives, which potential \"" + each.name +
+                         "\" does not give; shadow_energy and discrete_energy do without",
+                     "potential", each.name);
+  }
+  if (model.tree.balls.empty()) return;
+  for (const JointInfo& joint : model.joints) {
+    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
+    throw ModelError("law compensated is not for floating and spherical joints, as \"" +
+                         joint.name + "\" is; shadow_energy and discrete_energy are",
+                     "joint", joint.name);
+  }
+}
 
 void check_input(const Model& model, const ForceInput& input) {
   const int n_u = model->forces.n_u();
@@ -85,6 +109,46 @@ void Stepper::Impl::add_dry_work() {
 void Stepper::Impl::add_loop_work(const VecX& impulse) {
   const double work = impulse.dot(node.loops.values.drive);
   report.work[scene.model.forces.n_u() + 2] += work;
+  done += work;
+  done_size += std::abs(work);
+}
+
+std::vector<int> perhaps_stiff(const Scene& scene) {
+  std::vector<int> out;
+  if (scene.model.forces.damping.size() == 0) return out;
+  const VecX z = damping_ratios(scene.shared, scene.options.h, scene.shared.neutral());
+  for (int c = 0; c < z.size(); ++c) {
+    if (z[c] > most_damping / 4) out.push_back(c);
+  }
+  return out;
+}
+
+// By the inertia at the start of the step.
+void Stepper::Impl::set_shift() {
+  if (damped.empty()) return;
+  if (!scene.model.has_gaps()) place_frames(scene, node);
+  if (!node.has_factors && !set_velocity_at_node(scene, node)) fail(FlightOutcome::not_converged);
+  VecX& x = flight.work.scratch.x;
+  for (const int c : damped) {
+    x.setZero();
+    x[c] = 1;
+    solve(scene.model.tree, scene.model.packed, node.M, x);
+    if (node.loops.some) node.loops.solver.hold(x);
+    const double z = scene.options.h * scene.model.forces.damping[c] * x[c];
+    flight.work.scratch.shift[c] = damping_shift(z);
+  }
+}
+
+// The arc's work is tau F.v - tau^2/2 F.M^-1 (2 beta - 1) Q, F all of the second half kick: of the
+// two kicks by the rates that they find.
+void Stepper::Impl::add_shift_work() {
+  ArcScratch& s = flight.work.scratch;
+  if (damped.empty() || s.shift.isZero(0)) return;
+  if (!node.has_factors && !set_velocity_at_node(scene, node)) return;
+  s.x = shifted_damping(scene.model, flight.work.arc.v, s);
+  solve(scene.model.tree, scene.model.packed, node.M, s.x);
+  const double tau = flight.work.arc.tau, work = -tau * tau / 2 * s.L_q.dot(s.x);
+  report.work[scene.model.forces.n_u()] += work;
   done += work;
   done_size += std::abs(work);
 }

@@ -25,28 +25,6 @@ constexpr int most_grazing = 3;
 /// Arcs of time stepping in a step that others are tried beside.
 constexpr int most_stepped = 4;
 
-/// The gradient of kappa is there for one-degree joints alone.
-void check_law(const ModelData& model, ImpactLaw law) {
-  if (law == ImpactLaw::custom && model.equalities.rows > 0) {
-    throw ModelError("a law of your own is not for models with loops, as \"" +
-                         model.equalities.all.front().name + "\" is; nodal_energy is",
-                     "loop", model.equalities.all.front().name);
-  }
-  if (law != ImpactLaw::compensated) return;
-  for (const PotentialFunction& each : model.mass.potentials.functions) {
-    throw ModelError("law compensated needs third derivatives, which potential \"" + each.name +
-                         "\" does not give; shadow_energy and discrete_energy do without",
-                     "potential", each.name);
-  }
-  if (model.tree.balls.empty()) return;
-  for (const JointInfo& joint : model.joints) {
-    if (joint.type != JointType::floating && joint.type != JointType::spherical) continue;
-    throw ModelError("law compensated is not for floating and spherical joints, as \"" +
-                         joint.name + "\" is; shadow_energy and discrete_energy are",
-                     "joint", joint.name);
-  }
-}
-
 }  // namespace
 
 Stepper::Stepper(const Model& model, const StepOptions& options) {
@@ -123,6 +101,7 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   clear(report);
   if (!last_is_valid || !(state == last) || pool.is_full()) start(state, is_own);
   last_is_valid = false;  // until this step is done
+  set_shift();
   const double t_start = state.t, h = scene.options.h;
   const Launch* launch = has_approach(node) ? collide() : nullptr;
   for (double left = h; left > 0;) {
@@ -141,6 +120,7 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
 void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
   clear(report);
   start(state, is_own);
+  set_shift();
   const double t_start = state.t, h = scene.options.h, H = node_energy(scene, node);
   int stepped = 0;
   for (double left = h; left > 0;) {
@@ -182,6 +162,7 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
     add_work(tau, unlocated.v_middle, unlocated.forces, unlocated.wrench_force);
   }
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
+  check_closed();
   saltus::forget(memory);
 }
 
@@ -201,6 +182,7 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) {
     fail(FlightOutcome::not_converged);
   }
+  if (node.driven_together >= 0) fail_driven();
   if (is_own) return;
   check_overlap();
   if (node.loops.some) check_loops();
@@ -213,6 +195,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
   report.residual = std::max(report.residual, work.arc.residual);
   if (outcome != FlightOutcome::arrived) fail(outcome);
   add_work();
+  add_shift_work();
   add_dry_work();
   if (work.scratch.loops) {
     report.loops += work.scratch.loops->mu;
@@ -230,6 +213,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
 // Ends the arc at a node.
 void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
+  if (node.driven_together >= 0) fail_driven();
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
   tell_half_kick(kick, report);
   if (node.loops.some) {

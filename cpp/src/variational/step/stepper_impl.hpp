@@ -7,6 +7,7 @@
 #include "saltus/variational/stepper.hpp"
 #include "variational/arc/finish.hpp"
 #include "variational/flight/flight.hpp"
+#include "variational/step/step_input.hpp"
 #include "variational/step/unlocated.hpp"
 
 namespace saltus {
@@ -28,6 +29,8 @@ struct Stepper::Impl {
     last.p.setZero(scene.model.tree.n_v);
     report.work.setZero(scene.model.forces.n_u() + 3);
     report.loops.setZero(scene.model.equalities.rows);
+    damped = perhaps_stiff(scene);
+    if (!damped.empty()) flight.work.scratch.shift.setZero(scene.model.tree.n_v);
     report.impacts.reserve(64);
     report.impulses.reserve(1024);
     report.settlings.reserve(64);
@@ -39,6 +42,8 @@ struct Stepper::Impl {
   void add_work();                    // likewise
   void add_work(double tau, const VecX& v, const ForceValues& forces, const VecX& wrench_force);
   void add_dry_work();  // likewise
+  void set_shift();     // likewise
+  void add_shift_work();
   void add_loop_work(const VecX& impulse);
   void step_once(State& state, bool is_own);
   void step_at_any_price(State& state, bool is_own);
@@ -74,6 +79,8 @@ struct Stepper::Impl {
   [[noreturn]] void fail_impacts();
   [[noreturn]] void fail_arcs();
   [[noreturn]] void fail_work();
+  [[noreturn]] void fail_driven();
+  void check_closed();
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
   bool loses_energy() const;
@@ -95,6 +102,7 @@ struct Stepper::Impl {
   Unlocated unlocated;        // likewise
   VecX q_sunk, p_sunk, lift;  // by lift_out
   ForceInput input;           // of the step
+  std::vector<int> damped;    // velocities whose damping may be stiff
   StepReport report;
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;

@@ -166,6 +166,7 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
     add_cut(c, std::max(c.phi, 0.0) / tau, x);
   }
   for (std::size_t k = 0; k < node.dry.size(); ++k) {
+    if (node.is_still(k)) continue;
     add_cut(node.dry[k], 0, x);
     x.cuts.back().bound = tau * node.dry_force[k];
   }
