@@ -64,7 +64,8 @@ JammedError
 constexpr auto resolve_overlap_doc = R"(The nearest configuration without overlap.
 
 Moves bodies out of each other as little as the kinetic metric allows, step by step: each
-minimizes |dq|_M subject to phi + phi_q dq >= 0.
+minimizes |dq|_M subject to phi + phi_q dq >= 0. Joints' limits are such gaps, and loops stay
+closed.
 
 Parameters
 ----------

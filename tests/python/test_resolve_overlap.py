@@ -103,3 +103,26 @@ def test_what_has_no_way_out_is_named():
     model = builder.build()
     with pytest.raises(saltus.ModelError, match=r"still overlap: ball ~ left by .*ball ~ right by"):
         saltus.resolve_overlap(model, model.neutral())
+
+
+def test_limits_are_kept_on_the_way_out():
+    """A foot below the floor: the knee may bend back by 0.1 rad only, so that the hip lifts it."""
+    builder = saltus.ModelBuilder("leg").add_floor()
+    parent, at, inertia = "world", 0.9, saltus.BodyInertia(1, (0, 0, -0.25), 0.02 * np.eye(3))
+    for name, bounds in (("hip", (-2.0, 2.0)), ("knee", (-0.1, 2.0))):
+        builder.add_link(name, inertia)
+        builder.add_joint(
+            name, "revolute", parent=parent, child=name, axis=(0, 1, 0),
+            X_PJ=saltus.Pose((0, 0, at)), lower=bounds[0], upper=bounds[1],
+        )  # fmt: skip
+        parent, at = name, -0.5
+    builder.add_shape("knee", saltus.Sphere(0.05), saltus.Pose((0, 0, -0.5)))
+    model = builder.build()
+    q = saltus.resolve_overlap(model, [0.1, -0.1])
+    assert q[1] >= -0.1 - 1e-9
+    assert model.gaps(q).phi.min() > -1e-9
+    saltus.simulate(model, q=q, duration=0.1)
+    # beyond a limit at the start: back into it, if there is room
+    q = saltus.resolve_overlap(model, [1.5, -0.5])
+    np.testing.assert_allclose(q, [1.5, -0.1], atol=0.3)
+    saltus.simulate(model, q=q, duration=0.1)

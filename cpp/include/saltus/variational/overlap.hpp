@@ -9,8 +9,9 @@ namespace saltus {
 ///
 ///   min |dq|_M   subject to   phi_i + phi_q,i dq >= 0     for pairs that overlap or are near
 ///
-/// until no pair overlaps by more than a fraction of its epsilon_phi. There may be no solution for
-/// bodies that are fixed to each other, or that overlap by more than their sizes.
+/// with joints' limits among them and loops kept closed, until no pair overlaps by more than a
+/// fraction of its epsilon_phi. There may be no solution for bodies that are fixed to each other,
+/// or that overlap by more than their sizes.
 /// @param q (n_q); @return (n_q) `q` itself if nothing overlaps
 /// @throws ModelError if q does not fit the model, and if pairs still overlap in the end: it names
 /// them and their depths.

@@ -25,6 +25,7 @@ struct Overlap {
   std::string name;
   double phi;
   double most;  ///< [m] it is no overlap down to -most
+  const char* unit = " m";
   bool is_one() const { return phi < -most; }
 };
 
@@ -68,6 +69,22 @@ std::string solid_name(const Model& model, const Pair& pair) {
          model->shapes[static_cast<std::size_t>(pair.b)].name;
 }
 
+/// Joints' limits are gaps that a way out keeps, however far they are.
+void add_limits(const Model& model, const VecX& q, NearPairs& out) {
+  for (std::size_t k = 0; k < model->limits.size(); ++k) {
+    const JointLimit& limit = model->limits[k];
+    const Pair pair = model.pair(model->first_limit + static_cast<int>(k));
+    VecX row = VecX::Zero(model.n_v());
+    const Drive& drive = model->tree.drive[static_cast<std::size_t>(limit.joint)];
+    row[drive.velocity] = limit.stop.side;
+    const double phi = limit.stop.side * (q[limit.coordinate] - limit.stop.bound);
+    const bool is_angle =
+        model->coordinates[static_cast<std::size_t>(limit.coordinate)].unit == Unit::radian;
+    out.pairs.push_back({limit.name, phi, pair.touch / 2, is_angle ? " rad" : " m"});
+    out.rows.push_back(row);
+  }
+}
+
 /// The parts of two shapes; of those that overlap as wholes these, and of their parts what leads
 /// out the same way: corners deep inside are nearer to other faces.
 NearPairs near_pairs(const Model& model, const VecX& q, double margin, BroadPhase& broad) {
@@ -101,6 +118,7 @@ NearPairs near_pairs(const Model& model, const VecX& q, double margin, BroadPhas
     }
     add_pair(model, kin, pair, gap, {model.pair_name(number), gap.phi, pair.touch / 2}, out);
   }
+  add_limits(model, q, out);
   return out;
 }
 
@@ -115,7 +133,7 @@ std::string list(const std::vector<Overlap>& overlaps) {
   for (const Overlap& each : overlaps) {
     if (!each.is_one()) continue;
     std::ostringstream text;
-    text << each.name << " by " << -each.phi << " m";
+    text << each.name << " by " << -each.phi << each.unit;
     names.push_back(text.str());
   }
   return list_names(names);
