@@ -83,6 +83,7 @@ set(SALTUS_SOURCES
   cpp/src/model/joint_forces.cpp
   cpp/src/model/frames.cpp
   cpp/src/model/close_loops.cpp
+  cpp/src/model/equilibrium.cpp
   cpp/src/model/loops.cpp
   cpp/src/model/masses.cpp
   cpp/src/model/materials.cpp

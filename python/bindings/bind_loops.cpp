@@ -2,10 +2,12 @@
 #include <pybind11/native_enum.h>
 
 #include "bindings.hpp"
+#include "control.hpp"
 #include "functions.hpp"
 #include "loop_docs.hpp"
 #include "pickle.hpp"
 #include "saltus/model/close_loops.hpp"
+#include "saltus/model/equilibrium.hpp"
 #include "saltus/model/model_builder.hpp"
 
 namespace saltus::bindings {
@@ -119,6 +121,16 @@ void bind_model_loops(py::class_<Model>& c, py::module_& m) {
   m.def("close_loops", &closed_state, docs::close_loops, py::arg("model"),
         py::arg("q") = py::none(), py::arg("v") = py::none(), py::kw_only(),
         py::arg("keep") = std::vector<std::string>{}, py::arg("t") = 0.0);
+  m.def(
+      "equilibrium",
+      [](const Model& model, const Coordinates& q, const py::object& control,
+         const std::vector<std::string>& keep) {
+        const VecX at = equilibrium(model, to_vector(q, model), to_control(control, model),
+                                    velocities_of(model, keep));
+        return model.state(at, VecX::Zero(model.n_v()));
+      },
+      docs::equilibrium, py::arg("model"), py::arg("q") = py::none(), py::kw_only(),
+      py::arg("control") = py::none(), py::arg("keep") = std::vector<std::string>{});
 }
 
 }  // namespace saltus::bindings

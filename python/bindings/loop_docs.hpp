@@ -131,4 +131,32 @@ ModelError
     Where no such state is found: the loop that stays open, and by how much.
 )";
 
+constexpr auto equilibrium =
+    R"(Finds where a model rests under springs, weights and constant controls.
+
+The minimum of V minus the work of the controls near q, on the loops and within joints' limits.
+Contacts of shapes, damping and dry friction have no say.
+
+Parameters
+----------
+model : Model
+q : array_like, shape (n_q,), or mapping, optional
+    Where to start.
+control : array_like, shape (n_u,), or mapping, optional
+    What actuators are told.
+keep : list of str
+    Joints, or velocities, that stay as they are.
+
+Returns
+-------
+State
+    At rest.
+
+Raises
+------
+ModelError
+    Where nothing holds what moves, and where the equilibrium that is found is no minimum: which
+    coordinate would fall away from it.
+)";
+
 }  // namespace saltus::bindings::docs

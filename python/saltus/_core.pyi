@@ -76,6 +76,7 @@ __all__: list[str] = [
     "classify_impact",
     "close_loops",
     "energies",
+    "equilibrium",
     "gap",
     "gap_table",
     "has_gap",
@@ -4338,6 +4339,41 @@ def energies(
     Energies
     """
 
+def equilibrium(
+    model: Model,
+    q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None = None,
+    *,
+    control: typing.Any = None,
+    keep: collections.abc.Sequence[str] = [],
+) -> State:
+    """
+    Finds where a model rests under springs, weights and constant controls.
+
+    The minimum of V minus the work of the controls near q, on the loops and within joints' limits.
+    Contacts of shapes, damping and dry friction have no say.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (n_q,), or mapping, optional
+        Where to start.
+    control : array_like, shape (n_u,), or mapping, optional
+        What actuators are told.
+    keep : list of str
+        Joints, or velocities, that stay as they are.
+
+    Returns
+    -------
+    State
+        At rest.
+
+    Raises
+    ------
+    ModelError
+        Where nothing holds what moves, and where the equilibrium that is found is no minimum: which
+        coordinate would fall away from it.
+    """
+
 def gap(
     a: Sphere | Capsule | Box | Cylinder | HalfSpace | Ellipsoid | Convex,
     X_WA: Pose,
@@ -4570,7 +4606,8 @@ def resolve_overlap(
     The nearest configuration without overlap.
 
     Moves bodies out of each other as little as the kinetic metric allows, step by step: each
-    minimizes |dq|_M subject to phi + phi_q dq >= 0.
+    minimizes |dq|_M subject to phi + phi_q dq >= 0. Joints' limits are such gaps, and loops stay
+    closed.
 
     Parameters
     ----------

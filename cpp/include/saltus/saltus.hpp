@@ -5,6 +5,7 @@
 #include "saltus/collision/gap.hpp"
 #include "saltus/model/close_loops.hpp"
 #include "saltus/model/dynamics.hpp"
+#include "saltus/model/equilibrium.hpp"
 #include "saltus/model/model_builder.hpp"
 #include "saltus/model/stiff_damping.hpp"
 #include "saltus/rollout/batch.hpp"
