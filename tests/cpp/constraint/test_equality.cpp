@@ -45,7 +45,7 @@ EqualityValues values_at(const Tree& tree, const EqualityModel& model, const Vec
   Kinematics kin(tree);
   set_configuration(tree, q, kin);
   EqualityValues out(tree.n_v, model.rows);
-  set_equalities(tree, model, kin, q, out);
+  set_equalities(tree, model, kin, q, 0, out);
   return out;
 }
 
@@ -82,8 +82,8 @@ TEST(Equalities, JointsThatAreReadAreAllThatMatter) {
     some.origin[root] = kin.origin[root];
   }
   EqualityValues all(random_tree.tree.n_v, model.rows), few = all;
-  set_equalities(random_tree.tree, model, kin, random_tree.q, all);
-  set_equalities(random_tree.tree, model, some, random_tree.q, few);
+  set_equalities(random_tree.tree, model, kin, random_tree.q, 0, all);
+  set_equalities(random_tree.tree, model, some, random_tree.q, 0, few);
   EXPECT_EQ(all.h, few.h);
   EXPECT_EQ(all.A, few.A);
 }
