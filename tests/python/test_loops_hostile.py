@@ -171,3 +171,18 @@ def test_a_joint_may_mimic_one_that_comes_later_beside_a_ball() -> None:
     run = saltus.simulate(model, q=q, duration=0.5)
     assert run.energy_error < 1e-3
     assert math.isfinite(run.total[-1])
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_what_is_squeezed_is_an_error_and_does_not_sink(restitution: float) -> None:
+    """A ball between a piston that is told to come on and a wall."""
+    builder = ModelBuilder().set_gravity((0, 0, 0)).set_default_contact(restitution=restitution)
+    ball = saltus.Sphere(0.1)
+    builder.add_body("piston", ball, mass=1.0, joint="prismatic", axis=(1, 0, 0))
+    builder.add_body("ball", ball, mass=1.0, X=Pose((0.35, 0, 0)))
+    builder.add_half_space("wall", (-1, 0, 0), -0.6)
+    model = builder.set_prescribed("piston", [0, 1, 2], [0, 0.3, 0.6]).build()
+    with pytest.raises(saltus.StepError) as caught:
+        saltus.simulate(model, state=saltus.close_loops(model), duration=1.5, progress=False)
+    rows = caught.value.trajectory.q
+    assert model.gaps(rows[-1]).phi.min() > -1e-12

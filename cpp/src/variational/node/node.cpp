@@ -111,6 +111,12 @@ double typical_speed(const Scene& scene, const Node& node) {
   return std::sqrt(twice_T / scene.total_mass) + scene.options.h * scene.model.mass.gravity.norm();
 }
 
+double lowest_gap(const Node& node) {
+  double lowest = 0;
+  for (int i = 0; i < node.touching; ++i) lowest = std::min(lowest, node.contacts[i].phi);
+  return lowest;
+}
+
 bool has_approach(const Node& node) {
   for (int i = 0; i < node.touching; ++i) {
     if (node.contacts[i].motion == Contact::Motion::approaches) return true;

@@ -120,6 +120,9 @@ void classify(const Scene& scene, const Node& node, double speed, Contact& c);
 /// u and motion of all contacts, where v has changed.
 void refresh_motions(const Scene& scene, Node& node);
 
+/// [m] The deepest overlap, or 0.
+double lowest_gap(const Node& node);
+
 /// True where some touching pair approaches.
 bool has_approach(const Node& node);
 

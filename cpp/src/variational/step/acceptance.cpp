@@ -36,8 +36,7 @@ bool Stepper::Impl::halves_left() const {
 }
 
 void Stepper::Impl::note_start() {
-  deepest = 0;
-  for (int i = 0; i < node.touching; ++i) deepest = std::min(deepest, node.contacts[i].phi);
+  deepest = lowest_gap(node);
   if (flight.work.rows.active.empty()) return;
   kinetic = 0.5 * node.p.dot(node.v);
   energy = node_energy(scene, node);
@@ -60,11 +59,13 @@ void Stepper::Impl::check_energy() {
   }
 }
 
-/// Of free bodies it is asked where Newton's method took long: a root near its guess takes 2 to 4
-/// iterations. The bound is that of check_energy for the last attempt, for the reason there.
+/// Of bodies without contacts it is asked where Newton's method took long: a root near its guess
+/// takes 2 to 4 iterations. The bound is that of check_energy for the last attempt, for the reason
+/// there.
 void Stepper::Impl::check_free_energy() {
   const ArcWork& work = flight.work;
-  constexpr int usual_iterations = 5;
+  // where loops pass dead points another root may be as near
+  const int usual_iterations = node.loops.some ? -1 : 5;
   if (!work.rows.active.empty() || work.arc.iterations <= usual_iterations) return;
   const double h = scene.options.h;
   if (!measure(scene.model, node.q, node.p, h, meter)) return;

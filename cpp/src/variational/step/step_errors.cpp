@@ -90,8 +90,10 @@ std::string Stepper::Impl::weak_loop() const {
          "which is the motion";
 }
 
-/// An arc of time stepping leaves loops closed, or there is none.
-void Stepper::Impl::check_closed() {
+/// An arc of time stepping leaves loops closed, and what they drive together apart, or there is
+/// none.
+/// @param lowest [m] gap before it
+void Stepper::Impl::check_closed(double lowest) {
   if (!node.loops.some) return;
   constexpr double rounding = 1e-7;
   const EqualityValues& values = node.loops.values;
@@ -103,6 +105,13 @@ void Stepper::Impl::check_closed() {
          << "\" cannot be kept closed after t = " << node.t << " s: it would open by "
          << std::abs(values.h[k]);
     raise(text.str(), "loops that contradict each other, or what is told, have no motion", 0);
+  }
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    constexpr double visible = 1e4;  // touches, as in acceptance.cpp
+    if (c.phi >= lowest - visible * pool[c.slot].touch) continue;
+    node.driven_together = c.slot;
+    fail_driven();
   }
 }
 

@@ -153,7 +153,7 @@ void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
 }
 
 void Stepper::Impl::fly_unlocated(double tau, double t) {
-  const double start = node.t;
+  const double start = node.t, lowest = lowest_gap(node);
   const Rung rung = step_unlocated(scene, tau, t, node, end, flight.work.scratch, unlocated);
   ++report.arcs;
   tell(unlocated.impulses, report);
@@ -162,7 +162,7 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
     add_work(tau, unlocated.v_middle, unlocated.forces, unlocated.wrench_force);
   }
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
-  check_closed();
+  check_closed(lowest);
   saltus::forget(memory);
 }
 

@@ -80,7 +80,7 @@ struct Stepper::Impl {
   [[noreturn]] void fail_arcs();
   [[noreturn]] void fail_work();
   [[noreturn]] void fail_driven();
-  void check_closed();
+  void check_closed(double lowest);
   [[noreturn]] void fail_energy(double gain);
   [[noreturn]] void fail_sinking(const Contact& contact);
   bool loses_energy() const;
