@@ -53,14 +53,18 @@ def touching_cradle(balls: int) -> Scene:
 def robots() -> tuple[list[Scene], str]:
     """Return the robots of example-robot-data, or none and why."""
     try:
-        data = importlib.metadata.distribution("example-robot-data")
+        folder = robots_folder()
     except importlib.metadata.PackageNotFoundError:
         return [], "robots: example-robot-data is not installed (pip install 'saltus[robots]')"
-    folder = Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots"))
     return [
         Scene(name, "robot", bare((folder / path).read_text()), 0.0, floating, ROBOTS_RATE)
         for name, (path, floating) in ROBOTS.items()
     ], ""
+
+
+def robots_folder() -> Path:
+    data = importlib.metadata.distribution("example-robot-data")
+    return Path(data.locate_file("cmeel.prefix/share/example-robot-data/robots"))
 
 
 def bare(urdf: str) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from robot_files import robots_folder
 from tests.bench import __main__ as bench
 from tests.bench import flops, page, reduce, scenes, table
 
@@ -177,6 +178,18 @@ def test_dominoes_fall_in_the_benchmark_of_heaps():
     cells = [cell.strip() for cell in done.stdout.splitlines()[2].split("|")[1:-1]]
     assert cells[:2] == ["dominoes", "0.1 s"]
     assert cells[3] == "20"
+
+
+def test_the_quadruped_stands_in_its_benchmark():
+    robots_folder()  # or skip
+    call = [sys.executable, "-m", "tests.bench.standing", "--passes", "1", "--steps", "5"]
+    done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, check=True)
+    lines = [line.split("|")[1:-1] for line in done.stdout.splitlines()]
+    cells = [cell.strip() for cell in lines[2]]
+    assert cells[0] == "saltus"
+    assert cells[3] == "4"  # feet on the floor
+    assert float(cells[5]) < 1e-5  # [rad/s] seen is 2e-7: servos settle as exp(-t / tau)
+    assert [line[0].strip() for line in lines[-3:]] == ["bare", "damping", "servos"]
 
 
 def test_contact_solvers_settle_in_their_benchmark():
