@@ -37,7 +37,7 @@ bool Stepper::Impl::halves_left() const {
 
 void Stepper::Impl::note_start() {
   deepest = lowest_gap(node);
-  if (flight.work.rows.active.empty()) return;
+  if (flight.work.rows.active.empty() && !node.loops.some) return;
   kinetic = 0.5 * node.p.dot(node.v);
   energy = node_energy(scene, node);
 }
@@ -47,8 +47,10 @@ void Stepper::Impl::note_start() {
 /// kinetic energy and more, and less than 1 % of the right ones swung by .3. As long as shorter
 /// arcs can be tried less is enough for that: midpoints of an arc swing by (h omega)^2 / 8.
 void Stepper::Impl::check_energy() {
-  if (flight.work.rows.active.empty()) return;
-  const double most = halves_left() ? 0.02 : 0.3;
+  const bool is_held = !flight.work.rows.active.empty();
+  if (!is_held && !node.loops.some) return;
+  // where loops pass dead points another root may be near, and energy swings more
+  const double most = is_held && halves_left() ? 0.02 : 0.3;
   // slower is rest: what a step's gravity gives, and what the rounding of gaps does
   const double h = scene.options.h;
   const double slow = h * scene.model.mass.gravity.norm() + most_touch(scene, node) / h;
@@ -64,9 +66,9 @@ void Stepper::Impl::check_energy() {
 /// there.
 void Stepper::Impl::check_free_energy() {
   const ArcWork& work = flight.work;
-  // where loops pass dead points another root may be as near
-  const int usual_iterations = node.loops.some ? -1 : 5;
+  constexpr int usual_iterations = 5;
   if (!work.rows.active.empty() || work.arc.iterations <= usual_iterations) return;
+  if (node.loops.some) return;  // their half kick comes yet: check_energy
   const double h = scene.options.h;
   if (!measure(scene.model, node.q, node.p, h, meter)) return;
   const double T = meter.energy.kinetic, H = T + meter.energy.potential;
