@@ -186,3 +186,17 @@ def test_what_is_squeezed_is_an_error_and_does_not_sink(restitution: float) -> N
         saltus.simulate(model, state=saltus.close_loops(model), duration=1.5, progress=False)
     rows = caught.value.trajectory.q
     assert model.gaps(rows[-1]).phi.min() > -1e-12
+
+
+def test_another_root_of_the_arc_is_no_step() -> None:
+    """A chain that spins fast for its step: energy jumps from arc to arc are asked about."""
+    builder = chain([(1, 1)] * 4)
+    model = builder.build()
+    for seed in range(6):
+        v = np.random.default_rng(seed).normal(scale=12.0, size=4)
+        try:
+            run = saltus.simulate(model, v=v, duration=2.0, h=0.01, progress=False)
+        except saltus.StepError as error:
+            run = error.trajectory
+        jumps = np.abs(np.diff(run.total)) / np.maximum(run.kinetic[1:], run.kinetic[:-1])
+        assert jumps.max() < 0.6  # of nodes; midpoints are held to 0.3

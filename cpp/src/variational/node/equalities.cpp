@@ -54,7 +54,7 @@ void note_still_joints(const Scene& scene, Node& node) {
 }
 
 bool is_held_by_loops(const Scene& scene, const ContactVector& row, Node& node) {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-9;  // less is no motion, but the rounding of a solve
   node.column.setZero();
   add(scene.trees, 1, row, node.column);
   solve(scene.model.tree, scene.model.packed, node.M, node.column);

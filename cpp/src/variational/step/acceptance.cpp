@@ -1,6 +1,7 @@
 // What an arc has to keep to be a part of the step.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "variational/step/stepper_impl.hpp"
 
@@ -61,14 +62,29 @@ void Stepper::Impl::check_energy() {
   }
 }
 
-/// Of bodies without contacts it is asked where Newton's method took long: a root near its guess
-/// takes 2 to 4 iterations. The bound is that of check_energy for the last attempt, for the reason
-/// there.
+/// The arc just flown has another energy, T + V in its middle, than the one before. Costs two sums.
+bool Stepper::Impl::is_doubtful() {
+  const ArcWork& work = flight.work;
+  const double T = 0.5 * work.arc.v.dot(work.scratch.L_v);
+  const MiddleEnergy now{T, T + potential_energy(scene.model.packed, work.scratch.w), done, true};
+  const MiddleEnergy before = std::exchange(middle, now);
+  if (!before.is_known) return false;
+  const double gain = now.total - before.total - (now.work + before.work) / 2;
+  constexpr double doubtful = 0.1;  // midpoints swing by (h omega)^2 / 8
+  return std::abs(gain) > doubtful * std::max({T, before.kinetic, done_size});
+}
+
+/// Of bodies without contacts it is asked where Newton's method took long, a root near its guess
+/// takes 2 to 4 iterations, and where energy jumps from arc to arc. The bound is that of
+/// check_energy for the last attempt, for the reason there.
 void Stepper::Impl::check_free_energy() {
   const ArcWork& work = flight.work;
   constexpr int usual_iterations = 5;
-  if (!work.rows.active.empty() || work.arc.iterations <= usual_iterations) return;
-  if (node.loops.some) return;  // their half kick comes yet: check_energy
+  if (!work.rows.active.empty() || node.loops.some) {  // loops' half kick comes yet: check_energy
+    middle.is_known = false;
+    return;
+  }
+  if (!is_doubtful() && work.arc.iterations <= usual_iterations) return;
   const double h = scene.options.h;
   if (!measure(scene.model, node.q, node.p, h, meter)) return;
   const double T = meter.energy.kinetic, H = T + meter.energy.potential;

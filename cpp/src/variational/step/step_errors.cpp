@@ -94,6 +94,7 @@ std::string Stepper::Impl::weak_loop() const {
 /// none.
 /// @param lowest [m] gap before it
 void Stepper::Impl::check_closed(double lowest) {
+  if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
   if (!node.loops.some) return;
   constexpr double rounding = 1e-7;
   const EqualityValues& values = node.loops.values;

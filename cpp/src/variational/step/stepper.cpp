@@ -164,6 +164,7 @@ void Stepper::Impl::fly_unlocated(double tau, double t) {
   report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
   check_closed(lowest);
   saltus::forget(memory);
+  middle.is_known = false;
 }
 
 void Stepper::Impl::start(const State& state, bool is_own) {
@@ -174,6 +175,7 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   last = state;
   last.q = q;
   saltus::forget(memory);
+  middle.is_known = false;
   start_anew(node.broad);
   start_anew(flight.broad);
   if (pool.is_full()) forget_pairs(node);
@@ -201,7 +203,11 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
     report.loops += work.scratch.loops->mu;
     add_loop_work(work.scratch.loops->mu);
   }
-  if (launch == nullptr) check_free_energy();
+  if (launch == nullptr) {
+    check_free_energy();
+  } else {
+    middle.is_known = false;
+  }
   note_start();
   ++report.arcs;
   remember(work.arc, node.t, work.rows, memory);
@@ -213,6 +219,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
 // Ends the arc at a node.
 void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
+  if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
   if (node.driven_together >= 0) fail_driven();
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
   tell_half_kick(kick, report);
@@ -236,6 +243,7 @@ const Launch* Stepper::Impl::collide() {
   if (!resolve_impact_at(scene, energy_before, node, impact, report, launch)) fail_jammed();
   if (node.loops.some) add_loop_work(node.loops.impulse);
   forget_velocities(memory);
+  middle.is_known = false;
   return launch;
 }
 

@@ -63,6 +63,7 @@ struct Stepper::Impl {
   bool halves_left() const;
   void note_start();
   void check_energy();
+  bool is_doubtful();
   void check_free_energy();
   void check_step_energy(double start);
   void check_gaps();
@@ -116,6 +117,12 @@ struct Stepper::Impl {
   // where the arc started, by note_start
   double deepest = 0;              // [m] its lowest gap, or 0
   double kinetic = 0, energy = 0;  // [J] if contacts hold the arc
+  /// [J] in the middle of the last arc without contacts, if nothing has hit since.
+  struct MiddleEnergy {
+    double kinetic = 0, total = 0, work = 0;
+    bool is_known = false;
+  };
+  MiddleEnergy middle;
   // [J] what forces did in it, and the sum of what each did
   double done = 0, done_size = 0;
 };
