@@ -1,6 +1,8 @@
 // Model floor: loops and couplings.
 #include <pybind11/native_enum.h>
 
+#include <cmath>
+
 #include "bindings.hpp"
 #include "control.hpp"
 #include "functions.hpp"
@@ -38,6 +40,7 @@ State closed_state(const Model& model, const Coordinates& q, const Velocities& v
 }
 
 std::map<std::string, VecX> gaps_of(const Model& model, const Coordinates& q, double t) {
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
   return by_loop(model, loop_gaps(model, to_vector(q, model), t));
 }
 

@@ -1,5 +1,7 @@
 #include "functions.hpp"
 
+#include <sstream>
+
 namespace saltus::bindings {
 namespace {
 
@@ -89,9 +91,11 @@ std::function<PrescribedMotion(double)> to_motion(const std::string& joint,
     const py::gil_scoped_acquire acquire;
     const VecX x = to_vector((*shared)(t), "prescribed motion", joint, "its value and rate");
     if (x.size() == 2 && x.allFinite()) return PrescribedMotion{x[0], x[1]};
-    throw ModelError("the prescribed motion of joint \"" + joint + "\" returned " +
-                         std::to_string(x.size()) + " numbers at t = " + std::to_string(t) +
-                         " s; it returns two that are finite, the displacement and its rate",
+    std::ostringstream given;
+    given << x.transpose();
+    throw ModelError("the prescribed motion of joint \"" + joint + "\" returned (" + given.str() +
+                         ") at t = " + std::to_string(t) +
+                         " s; it returns two finite numbers, the displacement and its rate",
                      "joint", joint);
   };
 }

@@ -200,3 +200,31 @@ def test_another_root_of_the_arc_is_no_step() -> None:
             run = error.trajectory
         jumps = np.abs(np.diff(run.total)) / np.maximum(run.kinetic[1:], run.kinetic[:-1])
         assert jumps.max() < 0.6  # of nodes; midpoints are held to 0.3
+
+
+def test_a_linkage_has_the_same_bits_alone_and_in_company() -> None:
+    def leg(builder: ModelBuilder, x: float) -> ModelBuilder:
+        for name, length, parent, at in (
+            ("thigh", 0.4, "world", (x, 0, 1.0)),
+            ("shin", 0.5, f"thigh {x}", (0.4, 0, 0)),
+        ):
+            builder.add_link(f"{name} {x}", rod(length)).add_joint(
+                f"{name} {x}", "revolute", parent=parent, child=f"{name} {x}", axis=(0, 1, 0),
+                X_PJ=Pose(at),
+            )  # fmt: skip
+        builder.add_shape(f"shin {x}", saltus.Sphere(0.05), Pose((0.5, 0, 0)))
+        return builder.add_loop(
+            f"strut {x}", "distance", a=At(f"shin {x}", (0.5, 0, 0)), b=At("world", (x, 0, 1.5)),
+            distance=1.1,
+        )  # fmt: skip
+
+    alone = leg(ModelBuilder().add_floor(restitution=0.3, friction=0.4), 0.0)
+    many = leg(leg(ModelBuilder().add_floor(restitution=0.3, friction=0.4), 0.0), 5.0)
+    many.add_body("box", saltus.Box((0.2, 0.2, 0.2)), mass=1.0, X=Pose((10, 0, 1)))
+    runs = []
+    for builder in (alone, many):
+        model = builder.build()
+        state = saltus.close_loops(model, {"thigh 0.0": 0.4, "shin 0.0": 0.3})
+        runs.append(saltus.simulate(model, state=state, duration=0.3, h=0.01, progress=False))
+    assert len(runs[0].impacts) == 0  # until then arcs are the same
+    np.testing.assert_allclose(runs[1].q[:, :2], runs[0].q, rtol=0, atol=1e-13)

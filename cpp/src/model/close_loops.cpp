@@ -60,8 +60,8 @@ double openness(const EqualityValues& values) {
   const Equality& loop = equality_of(*model, row);
   std::ostringstream text;
   text << "loop " << quoted(loop.name) << " stays open by " << std::abs(values.h[row])
-       << ": no configuration that closes it was found from here; start nearer to one, or keep "
-          "fewer coordinates";
+       << ": no configuration that closes it was found from here; start nearer to one (not from a "
+          "straight arm, which bends neither way), or keep fewer coordinates";
   throw ModelError(text.str(), "loop", loop.name);
 }
 
@@ -141,7 +141,8 @@ VecX consistent_velocity(const Model& model, const VecRef& q, const VecRef& v,
     const Equality& loop = equality_of(*model, row);
     std::ostringstream text;
     text << "loop " << quoted(loop.name) << " opens at a rate of " << std::abs(left[row])
-         << " with the velocities that are kept; keep fewer";
+         << (keep.empty() ? "; no velocities keep it closed: loops, or what is told, contradict it"
+                          : " with the velocities that are kept; keep fewer");
     throw ModelError(text.str(), "loop", loop.name);
   }
   return out;

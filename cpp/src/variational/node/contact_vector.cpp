@@ -1,6 +1,8 @@
 #include "variational/node/contact_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace saltus {
 namespace {
@@ -17,15 +19,46 @@ void for_each(const TreeCoordinates& trees, Row& row, const F& f) {
 
 }  // namespace
 
-TreeCoordinates::TreeCoordinates(const ModelData& model)
-    : one_to_one(model.packed.one_to_one && model.equalities.rows == 0) {
-  const PackedTree& t = model.packed;
-  of.resize(one_to_one ? t.trees.size() : 1);
-  for (std::size_t i = 0; i < of.size() && one_to_one; ++i) {
-    const PackedGroup& g = t.groups[t.trees[i].group];
-    for (int k = 0; k < g.positions; ++k) of[i].push_back(t.joint[g.slot(k) + t.trees[i].lane]);
+namespace {
+
+/// (trees) The first of the trees that loops tie it to.
+std::vector<int> tied_trees(const ModelData& model) {
+  std::vector<int> first(model.packed.trees.size());
+  std::iota(first.begin(), first.end(), 0);
+  for (const Equality& each : model.equalities.all) {
+    if (each.a.joint < 0 || each.b.joint < 0) continue;
+    const int a = first[model.packed.tree[each.a.joint]],
+              b = first[model.packed.tree[each.b.joint]];
+    for (int& tree : first) {
+      if (tree == std::max(a, b)) tree = std::min(a, b);
+    }
   }
-  for (int c = 0; c < model.tree.n_v && !one_to_one; ++c) of[0].push_back(c);
+  return first;
+}
+
+}  // namespace
+
+TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.packed.one_to_one) {
+  const PackedTree& t = model.packed;
+  if (!one_to_one) {
+    of.resize(1);
+    list.assign(t.trees.size(), 0);
+    for (int c = 0; c < model.tree.n_v; ++c) of[0].push_back(c);
+  }
+  const std::vector<int> first = tied_trees(model);
+  for (std::size_t i = 0; i < t.trees.size() && one_to_one; ++i) {
+    const bool is_first = first[i] == static_cast<int>(i);
+    list.push_back(is_first ? static_cast<int>(of.size()) : list[first[i]]);
+    if (is_first) of.emplace_back();
+    const PackedGroup& g = t.groups[t.trees[i].group];
+    for (int k = 0; k < g.positions; ++k) {
+      of[list.back()].push_back(t.joint[g.slot(k) + t.trees[i].lane]);
+    }
+  }
+  is_tied.assign(of.size(), 0);
+  for (std::size_t i = 0; i < first.size() && one_to_one; ++i) {
+    if (first[i] != static_cast<int>(i)) is_tied[list[i]] = 1;
+  }
   for (const auto& each : of) most = std::max(most, static_cast<int>(each.size()));
 }
 
@@ -43,7 +76,7 @@ void shape_row(const ModelData& model, const TreeCoordinates& trees, const Pair&
   row.part = {};
   row.value.clear();
   for (const ChainJoint& k : pair.chain) {
-    const int tree = trees.one_to_one ? model.packed.tree[k.joint] : 0;
+    const int tree = trees.list[model.packed.tree[k.joint]];
     if (row.part[0].tree == tree || row.part[1].tree == tree) continue;
     ContactVector::Part& part = row.part[row.part[0].tree < 0 ? 0 : 1];
     part = {tree, static_cast<int>(row.value.size()), static_cast<int>(trees.of[tree].size())};
@@ -93,9 +126,15 @@ void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVe
            PackedMatrix& M, VecX& scratch, ContactVector& column) {
   column.part = row.part;
   column.value = row.value;
-  if (trees.one_to_one) {
+  const bool is_dense =
+      std::any_of(column.part.begin(), column.part.end(), [&](const ContactVector::Part& part) {
+        return part.tree >= 0 && (!trees.one_to_one || trees.is_tied[part.tree] != 0);
+      });
+  if (!is_dense) {
     for (const ContactVector::Part& part : column.part) {
-      if (part.tree >= 0) solve_tree(model.packed, part.tree, M, &column.value[part.first]);
+      if (part.tree < 0) continue;
+      const int tree = model.packed.tree[trees.of[part.tree].front()];
+      solve_tree(model.packed, tree, M, &column.value[part.first]);
     }
     return;
   }

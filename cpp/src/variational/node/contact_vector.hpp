@@ -1,4 +1,5 @@
-// Rows phi_q and columns M^-1 phi_q^T of contacts: zero but on the one or two trees that touch.
+// Rows phi_q and columns M^-1 phi_q^T of contacts: zero but on the one or two trees that touch, and
+// on those that loops tie to them.
 //
 // M is block diagonal, a block a tree, so a column lives where its row does, and contacts that
 // share no tree do not know of each other.
@@ -12,13 +13,15 @@
 
 namespace saltus {
 
-/// The coordinates of every tree, in order of position; one list of all with mimic joints or loops,
-/// which tie trees together.
+/// Coordinates that feel each other, by lists: those of a tree, in order of position, or of several
+/// that loops tie together; one list of all with mimic joints, which tie trees together, too.
 struct TreeCoordinates {
   explicit TreeCoordinates(const ModelData& model);
-  std::vector<std::vector<int>> of;
-  bool one_to_one;  ///< a list a tree
-  int most = 0;     ///< entries of the longest list
+  std::vector<std::vector<int>> of;  ///< (lists)
+  std::vector<int> list;             ///< (trees) the list that a tree is in
+  std::vector<char> is_tied;         ///< (lists) of several trees
+  bool one_to_one;                   ///< no mimic joints
+  int most = 0;                      ///< entries of the longest list
 };
 
 struct ContactVector {

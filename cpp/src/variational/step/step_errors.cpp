@@ -52,6 +52,14 @@ std::string Stepper::Impl::fast_joint() const {
   return text.str();
 }
 
+/// Where loops are: they may contradict each other, or what is told.
+std::string Stepper::Impl::loops_in_words() const {
+  if (!node.loops.some) return {};
+  std::vector<std::string> names;
+  for (const Equality& each : scene.model.equalities.all) names.push_back(each.name);
+  return "; with the loops " + list_names(names) + ", which may contradict each other";
+}
+
 namespace {
 
 /// Independent rows of the loops at q; the last that depends on others in `weak`.
@@ -96,7 +104,7 @@ std::string Stepper::Impl::weak_loop() const {
 void Stepper::Impl::check_closed(double lowest) {
   if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
   if (!node.loops.some) return;
-  constexpr double rounding = 1e-7;
+  constexpr double rounding = 1e-10;
   const EqualityValues& values = node.loops.values;
   for (int k = 0; k < values.h.size(); ++k) {
     if (std::abs(values.h[k]) <= rounding * values.size[k]) continue;
@@ -158,7 +166,7 @@ void Stepper::Impl::fail(FlightOutcome outcome) {
     default:
       text << "DEL residual " << arc.residual << " after " << arc.iterations
            << " iterations at t = " << node.t << " s, arc of " << arc.tau << " s" << held_list()
-           << fast_joint() << weak_loop();
+           << fast_joint() << loops_in_words() << weak_loop();
   }
   raise(text.str(), "a smaller h helps where the motion is fast, " + h.str(), arc.iterations);
 }

@@ -90,6 +90,7 @@ struct Stepper::Impl {
   std::string held_list() const;
   std::string fast_joint() const;
   std::string weak_loop() const;
+  std::string loops_in_words() const;
 
   Scene scene;
   PairPool pool;
