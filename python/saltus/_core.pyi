@@ -4298,7 +4298,7 @@ def close_loops(
     Finds the state nearest to a configuration that closes all loops.
 
     Newton's method goes from q by the shortest steps in the metric of the mass matrix; velocities are
-    the nearest, in the same metric, that keep the loops closed.
+    the nearest, in the same metric, that keep the loops closed. Joints' limits have no say.
 
     Parameters
     ----------

@@ -54,6 +54,14 @@ def test_a_limit_bears_what_it_stops() -> None:
     assert saltus.equilibrium(model, [1.5]).q[0] == pytest.approx(0.5, abs=1e-9)
 
 
+@pytest.mark.parametrize("start", [(0.3, 0.4), (-0.9, 0.9), (0.9, -0.9), (0.0, 0.0)])
+def test_two_rods_between_their_stops(start: tuple[float, float]) -> None:
+    """Level rods fall: the first onto its stop at -1, the second hangs down, at pi / 2 - 1 less."""
+    model = arm().set_limit("shoulder", -1.0, 1.0).set_limit("elbow", -1.0, 1.0).build()
+    q = saltus.equilibrium(model, start).q
+    np.testing.assert_allclose(q, [-1.0, 1.0 - math.pi / 2], rtol=0, atol=1e-9)
+
+
 def test_a_four_bar_hangs_where_its_potential_is_least() -> None:
     model = four_bar().build()
     state = saltus.equilibrium(model, [1.0, -0.5, -2.0])

@@ -118,16 +118,22 @@ FreeStep free_step(const Model& model, const VecX& q, const Pull& pull, const Ma
   return out;
 }
 
-/// The part of the step that no limit ends.
-double room(const Model& model, const VecX& q, const VecX& dq) {
+/// The part of the step that no limit ends, and the velocity that ends it, or -1.
+struct Room {
   double part = 1;
+  int stopped = -1;
+};
+
+Room room(const Model& model, const VecX& q, const VecX& dq) {
+  Room out;
   for (const JointLimit& limit : model->limits) {
     const int c = model->tree.drive[static_cast<std::size_t>(limit.joint)].velocity;
     const double phi = limit.stop.side * (q[limit.coordinate] - limit.stop.bound);
     const double rate = limit.stop.side * dq[c];
-    if (rate < 0 && phi + rate < 0) part = std::min(part, std::max(0.0, -phi / rate));
+    if (!(rate < -rounding && phi + rate < -rounding && -phi / rate < out.part)) continue;
+    out = {std::max(0.0, -phi / rate), c};
   }
-  return part;
+  return out;
 }
 
 [[noreturn]] void fail_falling(const Model& model, const VecX& softest) {
@@ -150,12 +156,19 @@ VecX equilibrium(const Model& model, const VecRef& start, const VecX& control,
     add_curvature_of_loops(model, q, A, pull);
     std::vector<int> held = pressed(model, q, pull.F);
     held.insert(held.end(), keep.begin(), keep.end());
-    const FreeStep step = free_step(model, q, pull, A, held);
+    FreeStep step = free_step(model, q, pull, A, held);
+    // what stands at its stop, and would be taken beyond by what the others do, stays for now
+    for (int round = 0; round < model.n_v(); ++round) {
+      const Room ahead = room(model, q, step.dq);
+      if (ahead.stopped < 0 || ahead.part > 1e-9) break;
+      held.push_back(ahead.stopped);
+      step = free_step(model, q, pull, A, held);
+    }
     if (step.dq.cwiseAbs().maxCoeff() <= rounding) {
       if (step.least < -1e-9 * step.most) fail_falling(model, step.softest);
       return q;
     }
-    VecX dq = room(model, q, step.dq) * step.dq;
+    VecX dq = room(model, q, step.dq).part * step.dq;
     const double slope = pull.F.dot(dq);
     VecX q_new;
     for (int halving = 0; halving < most_halvings; ++halving, dq /= 2) {

@@ -45,13 +45,14 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
   const Pair* solid = nullptr;
   bool is_clear = false;
   for (const int number : f.broad.candidates) {
-    const int slot = slot_at(scene, number, node);
-    f.skips.fit(node.pool.size());
+    const int slot = node.pool.slot_of(model, number);
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
+      slot_at(scene, number, node);
       solid = node.pool.solid(slot);
       is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, node, f.dq);
     }
-    if (!is_clear) add_if_hit(scene, slot, node, f);
+    f.skips.fit(node.pool.size());
+    if (!is_clear) add_if_hit(scene, slot_at(scene, number, node), node, f);
   }
 }
 

@@ -229,16 +229,17 @@ bool find_contacts(const Scene& scene, Node& node) {
   bool is_near = true;
   FirstOf first;
   for (const int number : node.broad.candidates) {
-    const int slot = slot_at(scene, number, node);
+    const int slot = node.pool.slot_of(model, number);
     fit(node);
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
+      slot_at(scene, number, node);
       merge_witnesses(first, node);
       solid = node.pool.solid(slot);
       is_near = solid == nullptr || pair_gap(model.tree, node.kin, *solid).phi <=
                                         solid->touch + nearly(scene.options, speed);
       first = {node.touching, node.silent.size()};
     }
-    if (is_near) add_if_touching(scene, speed, slot, node);
+    if (is_near) add_if_touching(scene, speed, slot_at(scene, number, node), node);
   }
   merge_witnesses(first, node);
   return true;
