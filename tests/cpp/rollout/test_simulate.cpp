@@ -104,7 +104,7 @@ TEST(Simulate, ProgressCanStopTheRunAndKeepsWhatIsDone) {
 }
 
 TEST(Simulate, ControlsOfAWrongSizeAreNamed) {
-  ModelBuilder builder(double_pendulum().description());
+  ModelBuilder builder(*double_pendulum()->description);
   const Model model = builder.add_motor("push", "angle_0").build();
   const Policy wrong = [](const Moment&, ForceInput& input) { input.control = VecX::Zero(3); };
   EXPECT_THROW(simulate(model, model.state(), .1, {.policy = wrong}), ModelError);

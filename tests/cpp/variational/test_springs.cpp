@@ -1,13 +1,17 @@
 // Springs between points, dampers, compensation and functions in steps.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
-#include "count_allocations.hpp"
 #include "kit/builders.hpp"
 #include "saltus/model/check_derivatives.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "saltus/variational/stepper.hpp"
+
+namespace saltus::test {
+inline std::atomic<long> allocations{0};  // counted by count_allocations.hpp in test_no_allocation
+}
 
 namespace saltus {
 namespace {
