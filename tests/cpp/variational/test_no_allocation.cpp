@@ -88,11 +88,11 @@ Model slider_crank() {
 
 TEST(Stepper, ALoopThatHitsAWallAllocatesNothing) {
   const Model model = slider_crank();
-  const VecX q = close_loops(model, VecX::Constant(2, 0.1), {0});
+  const VecX q = close_loops(model, Eigen::Vector2d(1.8, -2.1), {0});
   const VecX v = consistent_velocity(model, q, Eigen::Vector2d(5, 0), {0});
   const auto [allocated, impacts] = count(model, model.state(q, v), {.h = 0.01});
   EXPECT_EQ(allocated, 0);
-  EXPECT_GT(impacts, 2);
+  EXPECT_GT(impacts, 1);
 }
 
 TEST(Stepper, ATowerThatStandsAllocatesNothing) {
