@@ -150,7 +150,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/lift.cpp
-  cpp/src/variational/step/start_overlap.cpp
+  cpp/src/variational/step/start_checks.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/step_input.cpp
   cpp/src/variational/step/stepper.cpp

@@ -12,14 +12,6 @@
 namespace saltus {
 namespace {
 
-EqualityValues values_at(const ModelData& model, const VecRef& q, double t) {
-  Kinematics kin(model.tree);
-  set_configuration(model.tree, q, kin);
-  EqualityValues out(model.tree.n_v, model.equalities.rows);
-  set_equalities(model.tree, model.equalities, kin, q, t, out);
-  return out;
-}
-
 /// The rows of h and of what stays, and the steps that meet them: dq = M^-1 C^T (C M^-1 C^T)^+ x.
 struct Steps {
   Steps(const ModelData& model, const VecRef& q, const MatX& A, const std::vector<int>& keep) {
@@ -81,6 +73,14 @@ void check_kept(const Model& model, const std::vector<int>& keep) {
 
 }  // namespace
 
+EqualityValues loop_values(const ModelData& model, const VecRef& q, double t) {
+  Kinematics kin(model.tree);
+  set_configuration(model.tree, q, kin);
+  EqualityValues out(model.tree.n_v, model.equalities.rows);
+  set_equalities(model.tree, model.equalities, kin, q, t, out);
+  return out;
+}
+
 const Equality& equality_of(const ModelData& model, int row) {
   const Equality* found = &model.equalities.all.front();
   for (const Equality& each : model.equalities.all) {
@@ -90,14 +90,14 @@ const Equality& equality_of(const ModelData& model, int row) {
 }
 
 VecX loop_gaps(const Model& model, const VecRef& q, double t) {
-  return values_at(*model, model.checked_q(q, "q"), t).h;
+  return loop_values(*model, model.checked_q(q, "q"), t).h;
 }
 
 VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<int>& keep,
                  double t) {
   check_kept(model, keep);
   VecX q = model.checked_q(q_start, "q");
-  EqualityValues values = values_at(*model, q, t);
+  EqualityValues values = loop_values(*model, q, t);
   constexpr int most_iterations = 100, most_halvings = 30;
   constexpr double rounding = 1e-14;
   double open = openness(values);
@@ -108,14 +108,14 @@ VecX close_loops(const Model& model, const VecRef& q_start, const std::vector<in
     VecX q_new;
     for (int halving = 0; halving < most_halvings && !(after < open); ++halving, dq /= 2) {
       q_new = model.integrate(q, dq);
-      values = values_at(*model, q_new, t);
+      values = loop_values(*model, q_new, t);
       after = openness(values);
     }
     if (!(after < open)) break;
     q = q_new;
     open = after;
   }
-  values = values_at(*model, q, t);
+  values = loop_values(*model, q, t);
   // what is left of Newton's method at rounding, or a loop that does not close
   if (!(open <= 1e-12)) fail_open(model, values);
   return q;
@@ -126,7 +126,7 @@ VecX consistent_velocity(const Model& model, const VecRef& q, const VecRef& v,
   check_kept(model, keep);
   check_vector(v, model.n_v(), "v", "velocities");
   const VecX at = model.checked_q(q, "q");
-  const EqualityValues values = values_at(*model, at, t);
+  const EqualityValues values = loop_values(*model, at, t);
   const Steps steps(*model, at, values.A, keep);
   const VecX rates = values.A.transpose() * v - values.drive;
   VecX out = v + steps.step(with_zeros(-rates, keep.size()));

@@ -16,14 +16,6 @@ constexpr int most_iterations = 300, most_halvings = 30;
 constexpr double longest_step = 0.3;  ///< [rad | m] of a coordinate
 constexpr double rounding = 1e-12;    ///< [rad | m] a step that is none
 
-MatX gradients_of_loops(const Model& model, const VecX& q) {
-  Kinematics kin(model->tree);
-  set_configuration(model->tree, q, kin);
-  EqualityValues values(model.n_v(), model->equalities.rows);
-  set_equalities(model->tree, model->equalities, kin, q, 0, values);
-  return values.A;
-}
-
 /// Generalized forces at rest, and minus their slopes.
 struct Pull {
   VecX F;  ///< (n_v)
@@ -56,8 +48,8 @@ void add_curvature_of_loops(const Model& model, const VecX& q, const MatX& A, Pu
   MatX bend(model.n_v(), model.n_v());
   for (int c = 0; c < model.n_v(); ++c) {
     const VecX unit = VecX::Unit(model.n_v(), c);
-    const MatX more = gradients_of_loops(model, model.integrate(q, step * unit));
-    const MatX less = gradients_of_loops(model, model.integrate(q, -step * unit));
+    const MatX more = loop_values(*model, model.integrate(q, step * unit)).A;
+    const MatX less = loop_values(*model, model.integrate(q, -step * unit)).A;
     bend.col(c) = (more - less) * mu / (2 * step);
   }
   pull.F += A * mu;  // what the loops leave
@@ -151,7 +143,7 @@ VecX equilibrium(const Model& model, const VecRef& start, const VecX& control,
   if (control.size() > 0) check_vector(control, model->forces.n_u(), "control", "actuators");
   VecX q = close_loops(model, start, keep);
   for (int k = 0; k < most_iterations; ++k) {
-    const MatX A = gradients_of_loops(model, q);
+    const MatX A = loop_values(*model, q).A;
     Pull pull = pull_at(model, q, control);
     add_curvature_of_loops(model, q, A, pull);
     std::vector<int> held = pressed(model, q, pull.F);

@@ -88,11 +88,19 @@ def simulate(chosen: argparse.Namespace) -> int:
     return 0 if run.complete else INTERRUPTED
 
 
+def first_state(model: saltus.Model, q: dict[str, float], v: dict[str, float]) -> saltus.State:
+    """Return the state to start from; loops are closed, and what is set stays where it can."""
+    if not model.loop_names:
+        return model.state(q, v)
+    kept = [name for name in {**q, **v} if name in model.velocity_names]
+    return saltus.close_loops(model, q, v, keep=kept)
+
+
 def _run(chosen: argparse.Namespace) -> saltus.Trajectory:
+    model = load(chosen, visuals=chosen.out is not None)  # the file is what pictures are made of
     return saltus.simulate(
-        load(chosen, visuals=chosen.out is not None),  # the file is what pictures are made of
-        q=dict(chosen.q),
-        v=dict(chosen.v),
+        model,
+        state=first_state(model, dict(chosen.q), dict(chosen.v)),
         duration=chosen.duration,
         h=chosen.h,
         law=chosen.law,
@@ -127,6 +135,13 @@ def info(chosen: argparse.Namespace) -> int:
         limits = zip(model.control_names, model.control_limits, strict=True)
         rows = ([name, *("" if math.isinf(x) else f"{x:g}" for x in pair)] for name, pair in limits)
         _print_table("actuators", ["name", "control from", "to"], rows)
+    for title, names in (
+        ("loops", model.loop_names),
+        ("states", model.state_names),
+        ("sensors", model.sensor_names),
+    ):
+        if names:
+            _print_table(title, ["name"], ([name] for name in names))
     _print_table(
         "shapes",
         ["name", "shape", "link"],

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import saltus
-from saltus.cli.commands import INTERRUPTED, load
+from saltus.cli.commands import INTERRUPTED, first_state, load
 from saltus.records.replace import check_target
 from saltus.view import serve
 from saltus.view.browser import find_chromium
@@ -45,7 +45,7 @@ def _live(chosen: argparse.Namespace) -> int:
             raise saltus.ModelError(f"--{name} writes a recorded run; it cannot go with --live")
     model = load(chosen, visuals=True)
     q = _start(model) | dict(chosen.q)
-    state = model.state(q, dict(chosen.v))
+    state = first_state(model, q, dict(chosen.v))
 
     def opened(url: str) -> None:
         import webbrowser
@@ -149,8 +149,7 @@ def _start(model: saltus.Model) -> dict[str, float]:
 def _run(chosen: argparse.Namespace, model: saltus.Model, q: dict[str, float]) -> saltus.Trajectory:
     return saltus.simulate(
         model,
-        q=q,
-        v=dict(chosen.v),
+        state=first_state(model, q, dict(chosen.v)),
         duration=DURATION if chosen.duration is None else chosen.duration,
         h=STEP if chosen.h is None else chosen.h,
         certify=True,

@@ -18,6 +18,9 @@ SALTUS_EXPORT VecX close_loops(const Model& model, const VecRef& q,
 SALTUS_EXPORT VecX consistent_velocity(const Model& model, const VecRef& q, const VecRef& v,
                                        const std::vector<int>& keep = {}, double t = 0);
 
+/// h and its gradients at q and t.
+SALTUS_EXPORT EqualityValues loop_values(const ModelData& model, const VecRef& q, double t = 0);
+
 /// h (m) at q and t, in the order of model->equalities.
 SALTUS_EXPORT VecX loop_gaps(const Model& model, const VecRef& q, double t = 0);
 

@@ -10,9 +10,7 @@
 namespace saltus {
 
 NodeEqualities::NodeEqualities(const ModelData& model)
-    : some(model.equalities.rows > 0),
-      values(model.tree.n_v, model.equalities.rows),
-      joints(joints_read(model.tree, model.equalities)) {
+    : some(model.equalities.rows > 0), values(model.tree.n_v, model.equalities.rows) {
   if (!some) return;
   solver = EqualitySolver(model.tree.n_v, model.equalities.rows);
   set_locks(model, solver);

@@ -25,7 +25,6 @@ struct NodeEqualities {
   /// and the root of twice the energy that went with it [sqrt J].
   VecX rate, kick;
   VecX impulse;             ///< (m) what they pushed there: what `p` has gained along A
-  std::vector<int> joints;  ///< whose poses h needs
   std::vector<char> still;  ///< (dry) joints that the loops let not move
 };
 

@@ -1,8 +1,10 @@
 // What an arc has to keep to be a part of the step.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
+#include "saltus/model/close_loops.hpp"
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
@@ -120,6 +122,31 @@ void Stepper::Impl::check_idle_arcs() {
   const int most = scene.options.strict ? most_arcs_idle : few_arcs_idle;
   const double meant = scene.options.h / longest + std::min(scene.options.max_impacts, most);
   if (report.arcs - static_cast<int>(report.impacts.size()) > meant) fail_arcs();
+}
+
+/// An arc of time stepping leaves loops closed, and what they drive together apart, or there is
+/// none.
+/// @param lowest [m] gap before it
+void Stepper::Impl::check_closed(double lowest) {
+  if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
+  if (!node.loops.some) return;
+  constexpr double rounding = 1e-10;
+  const EqualityValues& values = node.loops.values;
+  for (int k = 0; k < values.h.size(); ++k) {
+    if (std::abs(values.h[k]) <= rounding * values.size[k]) continue;
+    blames_contact = false;
+    std::ostringstream text;
+    text << "loop \"" << equality_of(scene.model, k).name
+         << "\" cannot be kept closed after t = " << node.t << " s: it would open by "
+         << std::abs(values.h[k]);
+    raise(text.str(), "loops that contradict each other, or what is told, have no motion", 0);
+  }
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.phi >= lowest - least_visible * pool[c.slot].touch) continue;
+    node.driven_together = c.slot;
+    fail_driven();
+  }
 }
 
 }  // namespace saltus

@@ -64,10 +64,7 @@ namespace {
 
 /// Independent rows of the loops at q; the last that depends on others in `weak`.
 Eigen::Index rank_of_loops(const ModelData& model, const VecX& q, double t, int& weak) {
-  Kinematics kin(model.tree);
-  set_configuration(model.tree, q, kin);
-  EqualityValues values(model.tree.n_v, model.equalities.rows);
-  set_equalities(model.tree, model.equalities, kin, q, t, values);
+  const EqualityValues values = loop_values(model, q, t);
   Eigen::ColPivHouseholderQR<MatX> qr(model.tree.n_v, model.equalities.rows);
   qr.setThreshold(1e-6);
   qr.compute(values.A);
@@ -96,32 +93,6 @@ std::string Stepper::Impl::weak_loop() const {
   return "; loop \"" + equality_of(model, weak).name +
          "\" is where two motions branch: its rows depend on each other here, and nothing says "
          "which is the motion";
-}
-
-/// An arc of time stepping leaves loops closed, and what they drive together apart, or there is
-/// none.
-/// @param lowest [m] gap before it
-void Stepper::Impl::check_closed(double lowest) {
-  if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
-  if (!node.loops.some) return;
-  constexpr double rounding = 1e-10;
-  const EqualityValues& values = node.loops.values;
-  for (int k = 0; k < values.h.size(); ++k) {
-    if (std::abs(values.h[k]) <= rounding * values.size[k]) continue;
-    blames_contact = false;
-    std::ostringstream text;
-    text << "loop \"" << equality_of(scene.model, k).name
-         << "\" cannot be kept closed after t = " << node.t << " s: it would open by "
-         << std::abs(values.h[k]);
-    raise(text.str(), "loops that contradict each other, or what is told, have no motion", 0);
-  }
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    constexpr double visible = 1e4;  // touches, as in acceptance.cpp
-    if (c.phi >= lowest - visible * pool[c.slot].touch) continue;
-    node.driven_together = c.slot;
-    fail_driven();
-  }
 }
 
 /// No impulse keeps the two apart.

@@ -49,7 +49,7 @@ struct Stepper::Impl {
   void step_at_any_price(State& state, bool is_own);
   void fly_unlocated(double tau, double t);
   void start(const State& state, bool is_own);
-  void check_overlap();  // start_overlap.cpp
+  void check_overlap();  // start_checks.cpp
   void check_loops();    // likewise
   void fly_one_arc(double left, const Launch* launch);
   void end_arc(double t);
