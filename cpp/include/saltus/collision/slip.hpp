@@ -16,7 +16,7 @@ struct Tangents {
   Vec3 t0, t1;
 };
 
-/// The coordinate axis that n is farthest from; of equals y, then z, then x.
+/// The coordinate axis that n is farthest from; of those equal to 1e-6 y, then z, then x.
 SALTUS_EXPORT int tangent_axis(const Vec3& n_W);
 
 /// t1 is that axis but for its part along n, so that in a scene in a coordinate plane t0 lies in

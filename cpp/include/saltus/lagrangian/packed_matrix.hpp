@@ -104,6 +104,9 @@ SALTUS_EXPORT void solve_scaled(const Tree& tree, const PackedTree& packed, Pack
 /// x <- K^T x: from a derivative by the end of an arc to that by its velocity, over tau. Needs
 /// factorize.
 SALTUS_EXPORT void pull_back_end(const PackedTree& packed, const PackedMatrix& J, VecX& x);
+/// The same on one tree, x by position in the tree.
+SALTUS_EXPORT void pull_back_end_tree(const PackedTree& packed, int tree, const PackedMatrix& J,
+                                      double* x);
 /// x <- C^T x: likewise from one by its middle, over tau / 2.
 SALTUS_EXPORT void pull_back_middle(const PackedTree& packed, const PackedMatrix& J, VecX& x);
 

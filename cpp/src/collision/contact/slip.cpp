@@ -5,9 +5,10 @@
 namespace saltus {
 
 int tangent_axis(const Vec3& n_W) {
-  int axis = 1;  // y: scenes in the plane are most often in x and z
+  constexpr double equal = 1e-6;  // rounding of a normal along an axis must not turn its tangents
+  int axis = 1;                   // y: scenes in the plane are most often in x and z
   for (const int k : {2, 0}) {
-    if (std::abs(n_W[k]) < std::abs(n_W[axis])) axis = k;
+    if (std::abs(n_W[k]) < std::abs(n_W[axis]) - equal) axis = k;
   }
   return axis;
 }

@@ -199,6 +199,19 @@ void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
 }
 
 void pull_back_end(const PackedTree& t, const PackedMatrix& J, VecX& x) { pull_back(t, J, 0, x); }
+
+void pull_back_end_tree(const PackedTree& t, int tree, const PackedMatrix& J, double* x) {
+  if (J.symmetric) return;
+  const PackedPlace& place = t.trees[tree];
+  const PackedGroup& g = t.groups[place.group];
+  for (const int k : g.balls) {
+    const double* K = at(J.ball, g.slot(k + 2) + place.lane);
+    const Eigen::Map<const Mat3, 0, Eigen::Stride<3 * lanes, lanes>> map(K);
+    const Vec3 pulled = map.transpose() * Eigen::Map<const Vec3>(x + k);
+    Eigen::Map<Vec3>(x + k) = pulled;
+  }
+}
+
 void pull_back_middle(const PackedTree& t, const PackedMatrix& J, VecX& x) {
   pull_back(t, J, 9, x);
 }

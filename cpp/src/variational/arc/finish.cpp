@@ -46,6 +46,7 @@ Vec3 push_of(const Scene& scene, const Row& row, const Contact& c, const Node& n
 void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& kick) {
   kick.contacts.clear();
   kick.p.clear();
+  kick.sizes.clear();
   kick.push.clear();
   while (static_cast<int>(kick.own.size()) < rows.count) kick.own.push_back(fresh_contact(scene));
   for (int i = 0; i < rows.count; ++i) {
@@ -63,6 +64,7 @@ void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& k
     }
     if (c == nullptr) continue;
     kick.contacts.push_back(c);
+    kick.sizes.push_back(row.is_active ? row.own : Mat3(Mat3::Zero()));
     kick.p.push_back(row.p);  // the opening half kick is near
     kick.push.push_back(push_of(scene, row, *c, node));
   }
@@ -104,6 +106,14 @@ bool release(const Scene& scene, const Node& node, HalfKick& kick) {
   return released;
 }
 
+/// Of joints with dry friction, before.
+void set_dry_rates(const Scene& scene, const Node& node, HalfKick& kick) {
+  kick.dry_rate.clear();
+  for (const Contact* c : kick.contacts) {
+    kick.dry_rate.push_back(c->bound > 0 ? dot(scene.trees, c->n, node.v) : 0);
+  }
+}
+
 /// The law, at all of them together. Changes p and v.
 void share_once(const Scene& scene, Node& node, HalfKick& kick) {
   set_contact_blocks(scene, kick.contacts, node, kick.neighbours, kick.W, kick.u);
@@ -116,14 +126,46 @@ void share_once(const Scene& scene, Node& node, HalfKick& kick) {
   kick.residual = settle_for_sure(kick.W, kick.pile, kick.u, kick.p).excess;
   kick.unlawful =
       kick.contacts[static_cast<std::size_t>(most_lawless(kick.W, kick.u, kick.p))]->slot;
-  kick.dry_rate.clear();
-  for (const Contact* c : kick.contacts) {
-    kick.dry_rate.push_back(c->bound > 0 ? dot(scene.trees, c->n, node.v) : 0);
-  }
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
     if (!kick.push[i].isZero(0)) kick.p[i] = kick.p[i][0] * kick.push[i];
     apply(scene, *kick.contacts[i], kick.p[i], node);
   }
+}
+
+/// What rests is most often held by the impulses of the opening half kick.
+/// @return true where they are lawful, to rounding; p and v have them then
+bool share_as_before(const Scene& scene, Node& node, HalfKick& kick) {
+  const auto is_unknown = [](const Mat3& own) { return own.isZero(0); };
+  if (node.loops.some || std::any_of(kick.sizes.begin(), kick.sizes.end(), is_unknown)) {
+    return false;
+  }
+  ContactBlocks& W = kick.W;
+  clear(W);
+  kick.p_before = node.p;
+  kick.v_before = node.v;
+  for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
+    const Contact& c = *kick.contacts[i];
+    for (int k = 0; k < c.rates(); ++k) add(scene.trees, kick.p[i][k], c.row(k), node.p);
+    W.own.push_back(kick.sizes[i]);
+    W.friction.push_back(c.friction);
+    W.rest.push_back(c.epsilon_u);
+    W.bound.push_back(c.bound);
+  }
+  node.v = node.p;
+  solve(scene.model.tree, scene.model.packed, node.M, node.v);
+  kick.u.clear();
+  for (const Contact* c : kick.contacts) {
+    kick.u.push_back(Vec3::Zero());
+    for (int k = 0; k < c->rates(); ++k) kick.u.back()[k] = dot(scene.trees, c->row(k), node.v);
+  }
+  const Lawlessness law = lawlessness(W, kick.u, kick.p);
+  if (law.residual <= 1e-15 * static_cast<double>(W.size())) {
+    kick.residual = law.excess;
+    return true;
+  }
+  node.p = kick.p_before;
+  node.v = kick.v_before;
+  return false;
 }
 
 void share(const Scene& scene, Node& node, HalfKick& kick) {
@@ -132,7 +174,8 @@ void share(const Scene& scene, Node& node, HalfKick& kick) {
   const bool any = std::any_of(kick.push.begin(), kick.push.end(),
                                [](const Vec3& push) { return !push.isZero(0); });
   if (any) kick.p_before = node.p, kick.v_before = node.v;
-  share_once(scene, node, kick);
+  set_dry_rates(scene, node, kick);
+  if (any || !share_as_before(scene, node, kick)) share_once(scene, node, kick);
   while (any && release(scene, node, kick)) {  // fewer are given each time
     node.p = kick.p_before;
     node.v = kick.v_before;
@@ -172,6 +215,7 @@ HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
   impulses.reserve(reserved);
   contacts.reserve(reserved);
   for (auto* each : {&u, &p, &push}) each->reserve(reserved);
+  sizes.reserve(reserved);
   for (VecX* x : {&p_before, &v_before}) x->setZero(scene.model.tree.n_v);
   pile.reserve(boxes);
   reserve(W, boxes);

@@ -29,12 +29,6 @@ void take_out_line(const ModelData& model, const ArcProblem& a, const VecX& v, A
   s.dv += dlambda * line.column;
 }
 
-double take_out_line(const LaunchLine& line, VecX& column) {
-  const double dlambda = -line.row.dot(column) / line.own;
-  column += dlambda * line.column;
-  return dlambda;
-}
-
 double line_residual(const ModelData& model, const ArcProblem& a, const VecX& v,
                      const ArcScratch& s) {
   if (!is_matched(a.launch)) return 0;

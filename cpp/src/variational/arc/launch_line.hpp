@@ -29,9 +29,6 @@ double discrete_energy(const ModelData& model, const ArcProblem& problem, const 
 /// Meets the line in s.dv, which is J^-1 r: changes s.dv and lambda.
 void take_out_line(const ModelData& model, const ArcProblem& problem, const VecX& v, ArcScratch& s);
 
-/// Meets the line in a column J^-1 f of another force. @return dlambda of a unit of that force
-double take_out_line(const LaunchLine& line, VecX& column);
-
 /// How far a matched line is from met, scaled like the momentum residual; else 0.
 double line_residual(const ModelData& model, const ArcProblem& problem, const VecX& v,
                      const ArcScratch& s);

@@ -10,13 +10,13 @@ void remember(const Arc& arc, double t, const Rows& rows, Memory& memory) {
     if (row.is_joint()) {
       const auto k = static_cast<std::size_t>(-1 - row.contact);
       if (memory.dry.size() <= k) memory.dry.resize(k + 1);
-      memory.dry[k] = {row.p, arc.tau, memory.arcs};
+      memory.dry[k] = {row.p, arc.tau, memory.arcs, row.own};
       continue;
     }
     if (!(row.p[0] > 0)) continue;
     const auto slots = static_cast<std::size_t>(row.slot) + 1;
     if (memory.impulses.size() < slots) memory.impulses.resize(slots);
-    memory.impulses[row.slot] = {row.p, arc.tau, memory.arcs};
+    memory.impulses[row.slot] = {row.p, arc.tau, memory.arcs, row.own};
   }
 }
 

@@ -9,35 +9,46 @@
 namespace saltus {
 namespace {
 
+/// Takes the gradient of rate k out of rows.dense. @return what it says of v
+double take_rate(const Scene& scene, const Contact& c, int k, const VecX& v, Row& row, Rows& rows) {
+  row.rate[k].part = c.n.part;
+  row.rate[k].value.resize(c.n.value.size());
+  take_from(scene.trees, rows.dense, row.rate[k]);
+  return dot(scene.trees, row.rate[k], v);
+}
+
 /// Tangential rates in the middle of the arc, where rolling has its slip: T v.
-void set_sliding(const ModelData& model, const Contact& c, const Arc& arc, Row& row, Vec3& u,
-                 ArcScratch& s) {
-  const Gap g = pair_gap_at_mid(model, row.watched(), s);
+void set_sliding(const Scene& scene, const Contact& c, Row& row, Vec3& u, ArcWork& work) {
+  const Tree& tree = scene.model.tree;
+  ArcScratch& s = work.scratch;
+  const Gap g = pair_gap_at_mid(scene.model, row.watched(), s);
   const Tangents t = tangents(g.n_W, tangent_axis(c.n_W));
   const Vec3 P = contact_point(g);
   for (int k = 1; k < 3; ++k) {
-    row.rate[k].setZero();
-    add_motion_gradient(model.tree, s.kin_end, row.watched(), P, k == 1 ? t.t0 : t.t1, row.rate[k]);
-    u[k] = row.rate[k].dot(arc.v);
+    const Vec3& t_W = k == 1 ? t.t0 : t.t1;
+    add_motion_gradient(tree, s.kin_end, row.watched(), P, t_W, work.rows.dense);
+    u[k] = take_rate(scene, c, k, work.arc.v, row, work.rows);
   }
 }
 
 /// Tangential rates of a point: its chord on the plane, as b's body sees it.
-void set_chord(const ModelData& model, const Gap& g, double tau, Row& row, Vec3& u, ArcScratch& s) {
-  const Pose X_WJ = s.kin_end.X_WJ(model.tree, row.frozen.on_b.joint);
+void set_chord(const Scene& scene, const Contact& c, const Gap& g, Row& row, Vec3& u,
+               ArcWork& work) {
+  const Tree& tree = scene.model.tree;
+  const Kinematics& kin = work.scratch.kin_end;
+  const Pose X_WJ = kin.X_WJ(tree, row.frozen.on_b.joint);
   const Vec3 chord = g.p_WA - (X_WJ.p + X_WJ.R * row.point_B);
   for (int k = 1; k < 3; ++k) {
     const Vec3 t = X_WJ.R * row.t_B[k - 1];
-    row.rate[k].setZero();
-    add_motion_gradient(model.tree, s.kin_end, row.frozen, g.p_WA, t, row.rate[k]);
-    u[k] = t.dot(chord) / tau;
+    add_motion_gradient(tree, kin, row.frozen, g.p_WA, t, work.rows.dense);
+    take_rate(scene, c, k, work.arc.v, row, work.rows);
+    u[k] = t.dot(chord) / work.arc.tau;
   }
 }
 
 /// The rate of a joint: its velocity.
 void set_joint_rate(const Scene& scene, const Contact& c, const Arc& arc, Row& row, Vec3& u) {
-  row.rate[0].setZero();
-  add(scene.trees, 1, c.n, row.rate[0]);
+  row.rate[0] = c.n;
   u = Vec3(dot(scene.trees, c.n, arc.v), 0, 0);
 }
 
@@ -61,12 +72,12 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
     const bool slides = c.friction > 0;
     Vec3& u = rows.u[i];
     u.setZero();
-    if (slides && !row.is_point) set_sliding(model, c, work.arc, row, u, s);
+    if (slides && !row.is_point) set_sliding(scene, c, row, u, work);
     const Gap g = pair_gap_at_end(model, row.watched(), s);
-    row.rate[0].setZero();
-    add_gap_gradient(model.tree, s.kin_end, row.watched(), g, row.rate[0]);
+    add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
+    take_rate(scene, c, 0, work.arc.v, row, rows);
     u[0] = (g.phi - row.target) / tau;
-    if (slides && row.is_point) set_chord(model, g, tau, row, u, s);
+    if (slides && row.is_point) set_chord(scene, c, g, row, u, work);
   }
 }
 
@@ -74,26 +85,32 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
 void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
   const ModelData& model = scene.model;
   ArcScratch& s = work.scratch;
+  Rows& rows = work.rows;
   const bool is_chord = row.is_point;
   for (int k = 0; k < c.rates(); ++k) {
     const bool is_of_end = (k == 0 && !row.is_joint()) || is_chord;
-    if (is_of_end) pull_back_end(model.packed, s.J, row.rate[k]);
-    VecX& column = row.column[k];
-    column.setZero();
-    add(scene.trees, 1, c.row(k), column);
-    solve(model.tree, model.packed, s.J, column);
+    if (is_of_end) pull_back_end(model, scene.trees, s.J, rows.column, row.rate[k]);
+    ContactVector& column = row.column[k];
+    solve(model, scene.trees, c.row(k), s.J, rows.column, column);
     if (s.loops) {
-      s.loops->solver.hold(column);
+      add(scene.trees, 1, column, rows.dense);
+      s.loops->solver.hold(rows.dense);
+      take_from(scene.trees, rows.dense, column);
       row.by_loops[k] = s.loops->solver.mu;
     }
-    row.by_launch[k] = is_matched(&work.line) ? take_out_line(work.line, column) : 0;
+    row.by_launch[k] = row.of_launch[k] = 0;
+    if (!is_matched(&work.line)) continue;
+    row.by_launch[k] = -dot(scene.trees, column, work.line.row) / work.line.own;
+    row.of_launch[k] = dot(scene.trees, row.rate[k], work.line.column);
   }
 }
 
 Mat3 block_of(const Row& at, int at_rates, const Row& by, int by_rates) {
   Mat3 block = Mat3::Zero();
   for (int i = 0; i < at_rates; ++i) {
-    for (int j = 0; j < by_rates; ++j) block(i, j) = at.rate[i].dot(by.column[j]);
+    for (int j = 0; j < by_rates; ++j) {
+      block(i, j) = dot(at.rate[i], by.column[j]) + at.of_launch[i] * by.by_launch[j];
+    }
   }
   return block;
 }
@@ -101,18 +118,27 @@ Mat3 block_of(const Row& at, int at_rates, const Row& by, int by_rates) {
 /// A launch couples all rows.
 void set_blocks(const Node& node, bool is_launched, Rows& rows) {
   ContactBlocks& W = rows.W;
+  for (auto* each : {&W.start, &W.contact}) each->clear();
+  for (auto* each : {&W.block, &W.own}) each->clear();
   const int m = static_cast<int>(rows.active.size());
+  const auto row = [&](int i) -> const ContactVector& {
+    return contact_of(node, active_row(rows, static_cast<std::size_t>(i))).n;
+  };
+  rows.neighbours.list(m, row);
   for (int j = 0; j < m; ++j) {
-    const Row& by = active_row(rows, j);
-    const Contact& c = contact_of(node, by);
-    W.start.push_back(static_cast<int>(W.contact.size()));
-    for (int i = 0; i < m; ++i) {
-      const Row& at = active_row(rows, i);
-      const Contact& other = contact_of(node, at);
-      if (!is_launched && !share_a_tree(other.n, c.n)) continue;
+    const Row& by = active_row(rows, static_cast<std::size_t>(j));
+    const int rates = contact_of(node, by).rates();
+    const auto add_block = [&](int i) {
+      const Row& at = active_row(rows, static_cast<std::size_t>(i));
       W.contact.push_back(i);
-      W.block.push_back(block_of(at, other.rates(), by, c.rates()));
+      W.block.push_back(block_of(at, contact_of(node, at).rates(), by, rates));
       if (i == j) W.own.push_back((W.block.back() + W.block.back().transpose()) / 2);
+    };
+    W.start.push_back(static_cast<int>(W.contact.size()));
+    if (is_launched) {
+      for (int i = 0; i < m; ++i) add_block(i);
+    } else {
+      for (const int i : rows.neighbours.of(row(j))) add_block(i);
     }
   }
   W.start.push_back(static_cast<int>(W.contact.size()));
@@ -170,36 +196,31 @@ Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
   return {std::max(out.residual, law.residual), std::max(out.excess, law.excess)};
 }
 
-bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
+bool step_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
   const ModelData& model = scene.model;
   ArcScratch& s = work.scratch;
-  Rows& rows = work.rows;
   Arc& arc = work.arc;
   set_second_partials(model, s);
   if (!factorize(model.tree, model.packed, s.w, arc.tau, s.J)) return false;
   s.dv = s.r;
   solve(model.tree, model.packed, s.J, s.dv);
-  const bool is_launched = is_matched(&work.line);
   const ArcProblem problem = arc_problem(scene, arc.tau, node, work);
-  if (is_launched) take_out_line(model, problem, arc.v, s);
+  if (is_matched(&work.line)) take_out_line(model, problem, arc.v, s);
   if (problem.loops != nullptr && !take_out_loops(model, problem, s)) return false;
   arc.v += s.dv;
   if (s.has_forces) shorten(model, problem, arc, s);
   if (!arc.v.allFinite()) return false;
   set_rates(scene, node, work);
-  clear(rows.W);
+  return true;
+}
+
+void set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
+  Rows& rows = work.rows;
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     Row& row = active_row(rows, i);
-    const Contact& c = contact_of(node, row);
-    linearize(scene, c, work, row);
-    rows.W.friction.push_back(c.friction);
-    // a hundredth of what touches is closed, over the arc
-    const double closed = row.is_joint() ? 0 : 1e-2 * row.pair->touch / arc.tau;
-    rows.W.rest.push_back(std::max(c.epsilon_u, closed));
-    rows.W.bound.push_back(row.is_joint() ? arc.tau / 2 * node.dry_force[-1 - row.contact] : 0);
+    linearize(scene, contact_of(node, row), work, row);
   }
-  set_blocks(node, is_launched, rows);
-  return true;
+  set_blocks(node, is_matched(&work.line), rows);
 }
 
 }  // namespace saltus

@@ -15,12 +15,15 @@ namespace saltus {
 
 /// Of the active rows with the impulses in rows.p: writes their rates u at arc.v, and
 /// rows.momentum, which all impulses have been added to.
-/// @return how far they are from the arc's equation and from the law; of the latter not at first,
-/// when W has not been written
+/// @return how far they are from the arc's equation and from the law; of the latter not where no
+/// W_ii are known
 Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work);
 
-/// Writes W and the linearised rows. One Newton step of arc.v and u goes before.
+/// One Newton step of arc.v, with the impulses as they are, and the rates u after it.
 /// @return false where there is no number
-bool set_row_blocks(const Scene& scene, const Node& node, ArcWork& work);
+bool step_row_rates(const Scene& scene, const Node& node, ArcWork& work);
+
+/// Writes the blocks of W and the linearised rows. Needs step_row_rates.
+void set_row_blocks(const Scene& scene, const Node& node, ArcWork& work);
 
 }  // namespace saltus

@@ -72,18 +72,19 @@ void freeze_point(const ModelData& model, const Node& node, Row& row) {
   row.frozen.on_a.X_JG = Pose{Mat3::Identity(), start_on_a(model, node, row)};
 }
 
-void fit(const ModelData& model, bool with_friction, Row& row) {
+void fit(const Scene& scene, bool with_friction, Row& row) {
+  const auto most = 2 * static_cast<std::size_t>(scene.trees.most);
   for (int k = 0; k < (with_friction ? 3 : 1); ++k) {
-    row.rate[k].setZero(model.tree.n_v);
-    row.column[k].setZero(model.tree.n_v);
-    row.by_loops[k].setZero(model.equalities.rows);
+    row.rate[k].value.reserve(most);
+    row.column[k].value.reserve(most);
+    row.by_loops[k].setZero(scene.model.equalities.rows);
   }
 }
 
 void activate(const Scene& scene, int i, const Node& node, Rows& rows) {
   Row& row = rows.row[i];
   const int rates = contact_of(node, row).rates();
-  if (row.rate[rates - 1].size() == 0) fit(scene.model, rates == 3, row);
+  if (row.rate[rates - 1].value.capacity() == 0) fit(scene, rates == 3, row);
   row.is_active = true;
   rows.active.push_back(i);
   rows.pile.reserve(rows.active.size());
@@ -92,6 +93,11 @@ void activate(const Scene& scene, int i, const Node& node, Rows& rows) {
 Row& next_row(Rows& rows) {
   if (rows.count == static_cast<int>(rows.row.size())) rows.row.emplace_back();
   return rows.row[rows.count++];
+}
+
+void remind(const ImpulseMemory& before, double tau, Row& row) {
+  row.p = tau / before.tau * before.p;
+  row.own = before.own;
 }
 
 void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
@@ -106,6 +112,7 @@ void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
   // many that touch cannot all be brought to 0: they stay where rounding left them
   row.target = std::min(c.phi, 0.0);
   row.p.setZero();
+  row.own.setZero();
   if (is_sharp(*row.pair) || (is_rod_end(scene.model, *row.pair) && rests_on_edge(c.slot, node))) {
     freeze(scene.model, node, row);
   }
@@ -119,9 +126,10 @@ void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {
   row.is_active = row.is_frozen = row.is_point = row.slides = false;
   row.target = 0;
   row.p.setZero();
+  row.own.setZero();
   const auto k = static_cast<std::size_t>(dry);
   const bool is_known = k < memory.dry.size() && memory.dry[k].arc == memory.arcs;
-  if (is_known) row.p = tau / memory.dry[k].tau * memory.dry[k].p;
+  if (is_known) remind(memory.dry[k], tau, row);
 }
 
 /// Joints between two bodies, at most.
@@ -156,7 +164,7 @@ bool level_rods(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
 
 }  // namespace
 
-Rows::Rows(const Scene& scene) {
+Rows::Rows(const Scene& scene) : neighbours(scene) {
   constexpr std::size_t few = 64;  // what is more grows once
   const auto pairs = static_cast<std::size_t>(scene.model.pairs.size()) + scene.model.limits.size();
   const auto dry = static_cast<std::size_t>(scene.model.forces.friction.size());
@@ -166,14 +174,14 @@ Rows::Rows(const Scene& scene) {
   const auto chain = static_cast<std::size_t>(deepest_chain(scene.model.tree));
   row.resize(reserved);
   for (Row& each : row) {
-    fit(scene.model, scene.has_friction, each);
+    fit(scene, scene.has_friction, each);
     each.frozen.chain.reserve(chain);
   }
   for (auto* each : {&active, &of_contact}) each->reserve(reserved);
   for (auto* each : {&u, &p, &before}) each->reserve(reserved);
   pile.reserve(boxes);
   reserve(W, boxes);
-  for (VecX* x : {&momentum, &size}) x->setZero(scene.model.tree.n_v);
+  for (VecX* x : {&momentum, &size, &dense, &column}) x->setZero(scene.model.tree.n_v);
 }
 
 int count_pressed(const Rows& rows) {
@@ -195,7 +203,7 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
     Row& row = rows.row[rows.count - 1];
     const bool is_known = c.slot < static_cast<int>(memory.impulses.size()) &&
                           memory.impulses[c.slot].arc == memory.arcs;
-    if (is_known) row.p = tau / memory.impulses[c.slot].tau * memory.impulses[c.slot].p;
+    if (is_known) remind(memory.impulses[c.slot], tau, row);
     if (is_known || c.friction > 0) activate(scene, rows.count - 1, node, rows);
   }
   for (std::size_t k = 0; k < node.dry.size(); ++k) {

@@ -41,10 +41,12 @@ struct Row {
   bool slides = false;            ///< in the arc solved: p is on its cone, against the sliding
   double target = 0;              ///< [m] lowest gap by the arc's end
   Vec3 p = Vec3::Zero();          ///< [N s] guess in, solution out; of what is not solved for 0
+  Mat3 own = Mat3::Zero();        ///< W_ii once solved for; before, that of the arc before, or 0
   bool is_active = false;         ///< solved for
-  std::array<VecX, 3> rate;       ///< (n_v) du/dv, of the linearised arc; written if active
-  std::array<VecX, 3> column;     ///< (n_v) J^-1 of the forces, which act at the arc's start
-  Vec3 by_launch = Vec3::Zero();  ///< what each changes of the launch's impulse
+  std::array<ContactVector, 3> rate;    ///< du/dv, of the linearised arc; written if active
+  std::array<ContactVector, 3> column;  ///< J^-1 of the forces, which act at the arc's start
+  Vec3 by_launch = Vec3::Zero();        ///< what each changes of the launch's impulse
+  Vec3 of_launch = Vec3::Zero();        ///< what that changes of each rate
   std::array<VecX, 3> by_loops;   ///< (m) and of the loops'; where there are some
 
   bool is_joint() const { return contact < 0; }
@@ -57,6 +59,7 @@ struct ImpulseMemory {
   Vec3 p = Vec3::Zero();  ///< [N s] over `tau`
   double tau = 0;         ///< [s]
   int arc = -1;           ///< its number; of an older one it is no guess
+  Mat3 own = Mat3::Zero();  ///< W_ii, which says what is large
 };
 
 /// Written by make_rows and what follows here; impulses by `solve`.
@@ -72,9 +75,11 @@ struct Rows {
 
   // scratch
   ContactBlocks W;  ///< of the active rows
+  Neighbours neighbours;
   std::vector<Vec3> u, p, before;
   PileScratch pile;
   std::vector<int> sticking;  ///< (trees) joints that stick
+  VecX dense, column;         ///< (n_v) the first zero between uses
   VecX momentum;              ///< (n_v) the node's with all impulses, written by set_row_rates
   VecX size;                  ///< (n_v) of all that is summed up in it, likewise
 };

@@ -20,11 +20,49 @@ bool is_lawful(const Lawlessness& law, double before, std::size_t contacts) {
   return law.residual > before / 2 && law.least() <= small_residual;
 }
 
-void take_impulses(double tau, Rows& rows) {
+/// [m/s] What the rounding of a gap is of its rate over the arc.
+double rounding_of(const Contact& c, const Row& row, double tau) {
+  if (row.is_joint()) return 0;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  // touch is 1e-10 of the size of what touches
+  return (4 * eps * c.point_W.cwiseAbs().maxCoeff() + 1e-5 * row.pair->touch) / tau;
+}
+
+/// What rests goes on with the velocity and the impulses of the arc before, most often: then they
+/// are lawful as they are, but for the rounding of gaps.
+bool is_lawful_guess(const Node& node, const Lawlessness& now, Rows& rows) {
+  if (now.residual <= 1e-15 * static_cast<double>(rows.active.size())) return true;
+  double size = 0;
+  for (std::size_t k = 0; k < rows.active.size(); ++k) {
+    size = std::max(size, rows.p[k].cwiseAbs().maxCoeff() / scale_of(rows.W.own[k]));
+  }
+  for (std::size_t k = 0; k < rows.active.size(); ++k) {
+    const Row& row = active_row(rows, k);
+    const double rounding = rounding_of(contact_of(node, row), row, rows.tau);
+    const double off = lawlessness_of(rows.W, static_cast<int>(k), rows.u[k], rows.p[k]);
+    if (!(off <= 1e-15 * size + scale_of(rows.W.own[k]) * rounding)) return false;
+  }
+  return true;
+}
+
+/// Impulses and what W has but blocks; of those W_ii, if all rows know theirs of the arc before.
+void take_impulses(const Node& node, double tau, Rows& rows) {
   scale_impulses(tau, rows);
   rows.p.clear();
-  rows.W.own.clear();
-  for (std::size_t k = 0; k < rows.active.size(); ++k) rows.p.push_back(active_row(rows, k).p);
+  ContactBlocks& W = rows.W;
+  clear(W);
+  for (std::size_t k = 0; k < rows.active.size(); ++k) {
+    const Row& row = active_row(rows, k);
+    const Contact& c = contact_of(node, row);
+    rows.p.push_back(row.p);
+    W.friction.push_back(c.friction);
+    // a hundredth of what touches is closed, over the arc
+    const double closed = row.is_joint() ? 0 : 1e-2 * row.pair->touch / tau;
+    W.rest.push_back(std::max(c.epsilon_u, closed));
+    W.bound.push_back(row.is_joint() ? tau / 2 * node.dry_force[-1 - row.contact] : 0);
+    if (W.own.size() == k && !row.own.isZero(0)) W.own.push_back(row.own);
+  }
+  if (W.own.size() < rows.active.size()) W.own.clear();
 }
 
 /// Impulses to the rows; those too small to press are none.
@@ -33,6 +71,7 @@ void give_impulses(Rows& rows) {
   for (const Vec3& p : rows.p) size = std::max(size, p[0]);
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
     Row& row = active_row(rows, k);
+    row.own = rows.W.own[k];
     row.p = row.is_joint() || rows.p[k][0] > 1e-13 * size ? rows.p[k] : Vec3::Zero();
     const double most = rows.W.friction[k] * row.p[0];
     row.slides = most > 0 && row.p.tail<2>().norm() >= (1 - 1e-9) * most &&
@@ -41,16 +80,19 @@ void give_impulses(Rows& rows) {
 }
 
 /// What a change of the impulses does to the arc's velocity, by the linearised arc.
-void add_change(ArcWork& work) {
+void add_change(const Scene& scene, ArcWork& work) {
   Rows& rows = work.rows;
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     const Vec3 dp = rows.p[i] - rows.before[i];
     const Row& row = active_row(rows, i);
-    work.arc.v += dp[0] * row.column[0];
-    if (rows.W.friction[i] > 0) work.arc.v += dp[1] * row.column[1] + dp[2] * row.column[2];
-    if (is_matched(&work.line)) work.line.lambda += row.by_launch.dot(dp);
-    if (!work.scratch.loops) continue;
     const int rates = rows.W.friction[i] > 0 ? 3 : 1;
+    for (int k = 0; k < rates; ++k) add(scene.trees, dp[k], row.column[k], work.arc.v);
+    if (is_matched(&work.line)) {
+      const double dlambda = row.by_launch.head(rates).dot(dp.head(rates));
+      work.line.lambda += dlambda;
+      work.arc.v += dlambda * work.line.column;
+    }
+    if (!work.scratch.loops) continue;
     for (int k = 0; k < rates; ++k) work.scratch.loops->mu += dp[k] * row.by_loops[k];
   }
 }
@@ -67,10 +109,12 @@ void stand_still(const Scene& scene, const Node& node, ArcWork& work) {
   still_trees(scene, rows.sticking, work.arc.v);
 }
 
+bool has_sizes(const Rows& rows) { return rows.W.own.size() == rows.active.size(); }
+
 bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   Rows& rows = work.rows;
   Arc& arc = work.arc;
-  take_impulses(tau, rows);
+  take_impulses(node, tau, rows);
   arc.tau = tau;
   bool is_solved = false;  // that is, the impulses are lawful for the v that belongs to them
   double before = std::numeric_limits<double>::infinity();
@@ -82,19 +126,23 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     const bool meets_arc = arc.residual <= most_residual;
     if (meets_arc && ends && rows.residual <= large_residual) break;
     if (meets_arc && is_solved && is_lawful(now, before, rows.active.size())) break;
-    if (ends || !std::isfinite(now.residual) || !set_row_blocks(scene, node, work)) {
+    if (ends || !std::isfinite(now.residual) || !step_row_rates(scene, node, work)) {
       const int worst = most_lawless(rows.W, rows.u, rows.p);
       work.unlawful = active_row(rows, static_cast<std::size_t>(worst)).slot;
       return false;
     }
+    const bool knows_sizes = has_sizes(rows);
+    if (!knows_sizes) set_row_blocks(scene, node, work);
     const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
-    is_solved = is_lawful(law, before, rows.active.size());
+    is_solved = round == 0 ? is_lawful_guess(node, law, rows)
+                           : is_lawful(law, before, rows.active.size());
     idle = law.residual > before / 2 ? idle + 1 : 0;
     before = law.residual;
     if (is_solved) continue;
+    if (knows_sizes) set_row_blocks(scene, node, work);  // not for what is lawful already
     rows.before = rows.p;
     settle_for_sure(rows.W, rows.pile, rows.u, rows.p, 1e-4);  // the next round finds the rest
-    add_change(work);
+    add_change(scene, work);
   }
   if (!node.dry.empty()) stand_still(scene, node, work);
   finish_arc(scene.model, arc_problem(scene, tau, node, work), arc, work.scratch);

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "saltus/variational/friction.hpp"
@@ -33,6 +34,9 @@ namespace saltus {
 
 /// Room for all blocks of so many contacts.
 void reserve(ContactBlocks& W, std::size_t contacts);
+
+/// Contacts are scaled so that W_ii = 1 at most.
+inline double scale_of(const Mat3& own) { return 1 / std::sqrt(own.diagonal().maxCoeff()); }
 
 /// No contacts.
 void clear(ContactBlocks& W);

@@ -15,9 +15,6 @@ Vec3 to_cone(const Vec3& a, double friction, Mat3* D = nullptr);
 /// friction in a joint, which has one rate and no normal; else the cone.
 Vec3 to_set(const Vec3& a, double friction, double bound, Mat3* D = nullptr);
 
-/// Contacts are scaled so that W_ii = 1 at most.
-inline double scale_of(const Mat3& own) { return 1 / std::sqrt(own.diagonal().maxCoeff()); }
-
 using Row = Eigen::Map<Eigen::RowVectorXd>;
 
 /// Lawlessness of scaled contacts.

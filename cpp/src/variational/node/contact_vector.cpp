@@ -21,19 +21,47 @@ void for_each(const TreeCoordinates& trees, Row& row, const F& f) {
 
 namespace {
 
-/// (trees) The first of the trees that loops tie it to.
+/// Trees that feel each other, by the first of them.
+class Ties {
+ public:
+  explicit Ties(const PackedTree& packed) : packed_(packed), first_(packed.trees.size()) {
+    std::iota(first_.begin(), first_.end(), 0);
+  }
+  void tie_trees(int x, int y) {
+    const int a = std::min(first_[x], first_[y]), b = std::max(first_[x], first_[y]);
+    std::replace(first_.begin(), first_.end(), b, a);
+  }
+  /// -1 is the world, which ties nothing.
+  void tie(int joint, int other) {
+    if (joint >= 0 && other >= 0) tie_trees(packed_.tree[joint], packed_.tree[other]);
+  }
+  int joint_of(int velocity) const { return packed_.joint[packed_.slot_of_velocity[velocity]]; }
+  const std::vector<int>& first() const { return first_; }
+
+ private:
+  const PackedTree& packed_;
+  std::vector<int> first_;
+};
+
+/// (trees) The first of the trees that loops, or forces on several, tie it to.
 std::vector<int> tied_trees(const ModelData& model) {
-  std::vector<int> first(model.packed.trees.size());
-  std::iota(first.begin(), first.end(), 0);
-  for (const Equality& each : model.equalities.all) {
-    if (each.a.joint < 0 || each.b.joint < 0) continue;
-    const int a = first[model.packed.tree[each.a.joint]],
-              b = first[model.packed.tree[each.b.joint]];
-    for (int& tree : first) {
-      if (tree == std::max(a, b)) tree = std::min(a, b);
+  Ties ties(model.packed);
+  for (const Equality& each : model.equalities.all) ties.tie(each.a.joint, each.b.joint);
+  for (const PointDamper& each : model.forces.dampers) ties.tie(each.joint_a, each.joint_b);
+  for (const Actuator& each : model.forces.actuators) {
+    const int first = ties.joint_of(each.gears.front().velocity);
+    for (const Gear& gear : each.gears) ties.tie(first, ties.joint_of(gear.velocity));
+  }
+  for (const FunctionForce& each : model.forces.functions) {
+    for (const int c : each.velocities) {
+      ties.tie(ties.joint_of(each.velocities.front()), ties.joint_of(c));
     }
   }
-  return first;
+  // potentials do not say whom they join
+  for (std::size_t i = 1; i < model.packed.trees.size() && model.packed.columns > 0; ++i) {
+    ties.tie_trees(0, static_cast<int>(i));
+  }
+  return ties.first();
 }
 
 }  // namespace
@@ -122,26 +150,58 @@ void add_sizes(const TreeCoordinates& trees, double factor, const ContactVector&
   for_each(trees, row, [&](double value, int c) { x[c] += std::abs(factor * value); });
 }
 
-void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,
-           PackedMatrix& M, VecX& scratch, ContactVector& column) {
-  column.part = row.part;
-  column.value = row.value;
-  const bool is_dense =
-      std::any_of(column.part.begin(), column.part.end(), [&](const ContactVector::Part& part) {
-        return part.tree >= 0 && (!trees.one_to_one || trees.is_tied[part.tree] != 0);
-      });
-  if (!is_dense) {
-    for (const ContactVector::Part& part : column.part) {
-      if (part.tree < 0) continue;
-      const int tree = model.packed.tree[trees.of[part.tree].front()];
-      solve_tree(model.packed, tree, M, &column.value[part.first]);
-    }
-    return;
+namespace {
+
+/// Trees of the part feel others, or J knows no trees.
+bool is_dense(const TreeCoordinates& trees, const PackedMatrix& J, const ContactVector& row) {
+  if (!trees.one_to_one || J.is_dense || J.is_coupled) return true;
+  return std::any_of(row.part.begin(), row.part.end(), [&](const ContactVector::Part& part) {
+    return part.tree >= 0 && trees.is_tied[part.tree] != 0;
+  });
+}
+
+/// Calls f(tree, x), x the row's entries by position in the tree.
+template <class F>
+void for_each_tree(const ModelData& model, const TreeCoordinates& trees, ContactVector& row,
+                   const F& f) {
+  for (const ContactVector::Part& part : row.part) {
+    if (part.tree < 0) continue;
+    f(model.packed.tree[trees.of[part.tree].front()], &row.value[part.first]);
   }
+}
+
+/// Calls f(x) for the row's entries among all coordinates, (n_v).
+template <class F>
+void on_all(const TreeCoordinates& trees, VecX& scratch, ContactVector& row, const F& f) {
   scratch.setZero();
   add(trees, 1, row, scratch);
-  solve(model.tree, model.packed, M, scratch);
-  for_each(trees, column, [&](double& value, int c) { value = scratch[c]; });
+  f(scratch);
+  for_each(trees, row, [&](double& value, int c) { value = scratch[c]; });
+}
+
+}  // namespace
+
+void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,
+           PackedMatrix& J, VecX& scratch, ContactVector& column) {
+  column.part = row.part;
+  column.value = row.value;
+  if (is_dense(trees, J, row)) {
+    on_all(trees, scratch, column, [&](VecX& x) { solve(model.tree, model.packed, J, x); });
+  } else {
+    for_each_tree(model, trees, column,
+                  [&](int tree, double* x) { solve_tree(model.packed, tree, J, x); });
+  }
+}
+
+void pull_back_end(const ModelData& model, const TreeCoordinates& trees, const PackedMatrix& J,
+                   VecX& scratch, ContactVector& row) {
+  if (model.packed.balls.empty()) return;
+  if (is_dense(trees, J, row)) {
+    on_all(trees, scratch, row, [&](VecX& x) { pull_back_end(model.packed, J, x); });
+  } else {
+    for_each_tree(model, trees, row,
+                  [&](int tree, double* x) { pull_back_end_tree(model.packed, tree, J, x); });
+  }
 }
 
 }  // namespace saltus

@@ -1,5 +1,5 @@
 // Rows phi_q and columns M^-1 phi_q^T of contacts: zero but on the one or two trees that touch, and
-// on those that loops tie to them.
+// on those that loops or forces tie to them.
 //
 // M is block diagonal, a block a tree, so a column lives where its row does, and contacts that
 // share no tree do not know of each other.
@@ -14,7 +14,7 @@
 namespace saltus {
 
 /// Coordinates that feel each other, by lists: those of a tree, in order of position, or of several
-/// that loops tie together; one list of all with mimic joints, which tie trees together, too.
+/// that loops or forces tie together; one list of all with mimic joints, which tie trees, too.
 struct TreeCoordinates {
   explicit TreeCoordinates(const ModelData& model);
   std::vector<std::vector<int>> of;  ///< (lists)
@@ -51,8 +51,11 @@ double dot_sizes(const TreeCoordinates& trees, const ContactVector& row, const V
 void add(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x);
 /// x += |factor row|
 void add_sizes(const TreeCoordinates& trees, double factor, const ContactVector& row, VecX& x);
-/// column <- M^-1 row
+/// column <- J^-1 row; M^-1 row where J is that of no duration
 void solve(const ModelData& model, const TreeCoordinates& trees, const ContactVector& row,
-           PackedMatrix& M, VecX& scratch, ContactVector& column);
+           PackedMatrix& J, VecX& scratch, ContactVector& column);
+/// row <- K^T row, `pull_back_end` of packed_matrix.hpp
+void pull_back_end(const ModelData& model, const TreeCoordinates& trees, const PackedMatrix& J,
+                   VecX& scratch, ContactVector& row);
 
 }  // namespace saltus

@@ -1,0 +1,240 @@
+"""Where contact is: what bodies that rest, slide and fall cost, beside MuJoCo.
+
+    python -m tests.bench.contact                         # all of them
+    python -m tests.bench.contact --scene tower heap      # those whose names start so
+
+saltus steps 10 ms, MuJoCo its default of 2 ms with its other defaults, so that a ratio of 5 per
+step is par per simulated second. Both have the same bodies on the same plane; MuJoCo is left out
+where it is not installed. A scene is run from its start anew in every pass; the least time counts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import saltus
+from tests.bench.table import grid
+
+H, THEIR_H = 0.01, 0.002
+Vector = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A ball (one size, its radius) or a box (three, its half lengths) of uniform density."""
+
+    size: Vector
+    place: Vector
+    mass: float = 1.0
+    velocity: Vector = (0.0, 0.0, 0.0)
+    turn: Vector = (0.0, 0.0, 0.0, 1.0)  # quaternion, w last
+
+    @property
+    def is_ball(self) -> bool:
+        return len(self.size) == 1
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Bodies on a floor, and between walls (normal, offset)."""
+
+    name: str
+    bodies: list[Body]
+    seconds: float  # that are timed
+    before: float = 0.0  # untimed
+    restitution: float = 0.0
+    friction: float = 0.5
+    walls: list[tuple[Vector, float]] = field(default_factory=list)
+    rests: bool = False  # nothing should move
+
+
+def rows_of_boxes(count: int) -> list[Body]:
+    side = round(count**0.5)
+    return [Body((0.1,) * 3, (0.5 * (i % side), 0.5 * (i // side), 0.1)) for i in range(count)]
+
+
+def tower(count: int) -> list[Body]:
+    half = (0.2, 0.15, 0.1)
+    return [Body(half, (0, 0, 0.1 * (2 * i + 1))) for i in range(count)]
+
+
+def pyramid(rows: int) -> list[Body]:
+    half = (0.1, 0.1, 0.05)
+    return [
+        Body(half, (0.21 * (i - (rows - row - 1) / 2), 0, 0.05 + 0.1 * row))
+        for row in range(rows)
+        for i in range(rows - row)
+    ]
+
+
+def heap(side: int) -> list[Body]:
+    """Balls on a lattice, a little beside their places, that fall on one another."""
+    rng = np.random.default_rng(side)
+    at = np.array(np.meshgrid(*[range(side)] * 3)).reshape(3, -1).T
+    places = 0.105 * at + rng.uniform(-0.002, 0.002, at.shape) + (0, 0, 0.1)
+    return [Body((0.05,), tuple(place)) for place in places]
+
+
+def box_walls(half: float) -> list[tuple[Vector, float]]:
+    return [(normal, -half) for normal in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
+
+
+def scenes() -> list[Scene]:
+    """Return the scenes, in the order of the table."""
+    out = [Scene(f"boxes {n}", rows_of_boxes(n), 0.2, 0.05, rests=True) for n in (16, 64, 256)]
+    out += [Scene(f"tower {n}", tower(n), 0.1, rests=True) for n in (5, 10, 20)]
+    out += [Scene("tower 10 at rest", tower(10), 0.5, 0.5, rests=True)]
+    out += [Scene(f"pyramid {n * (n + 1) // 2}", pyramid(n), 0.1, rests=True) for n in (4, 6)]
+    out += [Scene("pyramid 21 at rest", pyramid(6), 0.2, 0.3, rests=True)]
+    out += [Scene("sliding boxes 16", [
+        Body(b.size, b.place, velocity=(1.0, 0.3, 0.0)) for b in rows_of_boxes(16)
+    ], 0.2)]  # fmt: skip
+    out += [
+        Scene(f"heap {n**3}", heap(n), 0.6, restitution=0.3, friction=0.3,
+              walls=box_walls(0.11 * n))
+        for n in (2, 3)
+    ]  # fmt: skip
+    return out
+
+
+def model_of(scene: Scene) -> saltus.Model:
+    builder = saltus.ModelBuilder(scene.name).add_floor()
+    builder.set_default_contact(restitution=scene.restitution, friction=scene.friction)
+    for k, (normal, offset) in enumerate(scene.walls):
+        builder.add_half_space(f"wall_{k}", normal, offset)
+    for i, body in enumerate(scene.bodies):
+        shape = saltus.Sphere(body.size[0]) if body.is_ball else saltus.Box(body.size)
+        X = saltus.Pose(body.place)
+        builder.add_body(f"body_{i}", shape, mass=body.mass, X=X, joint_name=f"free_{i}")
+    return builder.build()
+
+
+def of_saltus(scene: Scene) -> tuple[Callable[[], list[float]], Callable[[], dict[str, str]]]:
+    """Return a pass, the seconds of each of its steps, and what is told of the last pass."""
+    model = model_of(scene)
+    v = {
+        f"free_{i}_v{axis}": each
+        for i, body in enumerate(scene.bodies)
+        for axis, each in zip("xyz", body.velocity, strict=True)
+    }
+    start = model.state(v=v)
+    facts: dict[str, str] = {}
+
+    def run() -> list[float]:
+        stepper, state = saltus.Stepper(model, H), start
+        for _ in range(round(scene.before / H)):
+            state = stepper.advance(state)
+        spent, arcs, iterations, rungs = [], 0, 0, 0
+        for _ in range(round(scene.seconds / H)):
+            begin = time.thread_time()
+            state = stepper.advance(state)
+            spent.append(time.thread_time() - begin)
+            arcs += stepper.report.arcs
+            iterations += stepper.report.iterations
+            rungs += len(stepper.report.fallbacks)
+        steps = len(spent)
+        facts["arcs"] = f"{arcs / steps:.1f}"
+        facts["iterations"] = f"{iterations / steps:.1f}"
+        facts["fallbacks"] = str(rungs)
+        facts["contacts"] = str(len(stepper.report.contacts))
+        facts["drift"] = f"{np.abs(state.q - start.q).max():.0e}" if scene.rests else "-"
+        return spent
+
+    return run, lambda: facts
+
+
+def mjcf_of(scene: Scene) -> str:
+    bodies = []
+    for i, body in enumerate(scene.bodies):
+        kind = "sphere" if body.is_ball else "box"
+        bodies.append(
+            f'<body name="body_{i}" pos="{words(body.place)}"><freejoint/>'
+            f'<geom type="{kind}" size="{words(body.size)}" mass="{body.mass}" '
+            f'friction="{scene.friction} 0 0"/></body>'
+        )
+    planes = [((0.0, 0.0, 1.0), 0.0), *scene.walls]
+    walls = "".join(
+        f'<geom type="plane" size="9 9 1" zaxis="{words(normal)}" '
+        f'pos="{words([offset * each for each in normal])}" friction="{scene.friction} 0 0"/>'
+        for normal, offset in planes
+    )
+    return (
+        f'<mujoco><option timestep="{THEIR_H}"/><worldbody>{walls}{"".join(bodies)}'
+        "</worldbody></mujoco>"
+    )
+
+
+def words(numbers: Vector | list[float]) -> str:
+    return " ".join(map(str, numbers))
+
+
+def of_mujoco(scene: Scene) -> Callable[[], list[float]]:
+    """Return a pass, the seconds of each of its steps."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_string(mjcf_of(scene))
+    data = mujoco.MjData(model)
+
+    def run() -> list[float]:
+        mujoco.mj_resetData(model, data)
+        for i, body in enumerate(scene.bodies):
+            data.qvel[6 * i : 6 * i + 3] = body.velocity
+        if scene.before > 0:
+            mujoco.mj_step(model, data, nstep=round(scene.before / THEIR_H))
+        steps = round(scene.seconds / THEIR_H)
+        begin = time.thread_time()
+        mujoco.mj_step(model, data, nstep=steps)
+        return [(time.thread_time() - begin) / steps] * steps
+
+    return run
+
+
+def row_of(scene: Scene, passes: int) -> list[str]:
+    """Run one scene in turns and return its row of the table."""
+    ours, facts = of_saltus(scene)
+    theirs = of_mujoco(scene) if importlib.util.find_spec("mujoco") else None
+    mine, other = [], []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", saltus.StepWarning)
+        for _ in range(passes):
+            mine.append(ours())
+            if theirs:
+                other.append(theirs())
+    best = np.min(mine, axis=0)
+    mean = best.mean()
+    told = facts()
+    row = [scene.name, f"{1e6 * mean:.0f}", f"{best.max() / np.median(best):.1f}"]
+    if other:
+        peer = np.min(other, axis=0).mean()
+        row += [f"{1e6 * peer:.0f}", f"{mean / peer:.1f}", f"{mean / peer * THEIR_H / H:.2f}"]
+    else:
+        row += ["-"] * 3
+    return row + [told[key] for key in ("contacts", "arcs", "iterations", "fallbacks", "drift")]
+
+
+COLUMNS = [
+    "scene", "step [us]", "worst / median", "mj_step [us]", "ratio", "a second", "contacts",
+    "arcs", "iterations", "fallbacks", "drift [m]",
+]  # fmt: skip
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scene", nargs="+", help="starts of names; default all")
+    parser.add_argument("--passes", type=int, default=3)
+    args = parser.parse_args()
+    print(grid(COLUMNS, []))
+    for scene in scenes():
+        if args.scene is None or any(scene.name.startswith(each) for each in args.scene):
+            print(f"| {' | '.join(row_of(scene, args.passes))} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
