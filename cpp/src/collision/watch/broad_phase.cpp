@@ -178,6 +178,7 @@ BroadPhase::BroadPhase(const Tree& model_tree, const std::vector<PlacedShape>& s
       normal(shapes.size()),
       moved(model_tree.parent.size()),
       turned(model_tree.parent.size()),
+      motion(shapes.size()),
       held_center(shapes.size()),
       held_reach(shapes.size()),
       row(shapes.size() + 1) {
@@ -207,6 +208,20 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
     const auto [first, count] = near.numbers;
     for (int k = 0; k < count; ++k) bp.candidates.push_back(first + k);
   }
+}
+
+void bound_motion(const Tree& tree, const Kinematics& kin, const VecRef& dq, BroadPhase& bp) {
+  bound_joints(tree, kin, dq, bp);
+  for (const int i : bp.bounded) {
+    const BroadPhase::Ball& ball = bp.ball[i];
+    const int j = ball.joint;
+    const Vec3 c_W = j < 0 ? ball.p_JG : Vec3(kin.joint[j].R * ball.p_JG);
+    bp.motion[i] = j < 0 ? 0
+                         : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W) +
+                               std::fmin(bp.turned[j], 2) * ball.size;
+    if (!std::isfinite(bp.motion[i])) bp.motion[i] = std::numeric_limits<double>::infinity();
+  }
+  for (const int i : bp.unbounded) bp.motion[i] = bp.ball[i].joint < 0 ? 0 : plane;
 }
 
 void start_anew(BroadPhase& bp) {

@@ -225,7 +225,8 @@ bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfK
   kick.impulses.clear();
   kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
-  place_node(scene, t, work.arc.q_end, work.arc.p_end, node);
+  node.dq = work.arc.tau * work.arc.v;
+  move_node(scene, t, work.arc.q_end, work.arc.p_end, node.dq, node);
   if (node.loops.some && !set_velocity_at_node(scene, node)) return false;
   if (!find_contacts(scene, node)) return false;
   if (work.rows.count == 0) return true;

@@ -8,8 +8,22 @@
 namespace saltus {
 namespace {
 
-bool is_clear_on_chord(const Scene& scene, const Pair& solid, const Node& node, const VecX& dq) {
-  const ChordHit hit = first_hit_on_chord(scene.model.tree, solid, node.q, dq, 0);
+/// What was measured at the node says that the pair cannot close on the chord. Needs bound_motion.
+bool is_certified(double distance, const Pair& pair, double floor, const Flight& f) {
+  return distance - (f.broad.motion[pair.a] + f.broad.motion[pair.b]) > floor;
+}
+
+/// The pair can go no lower than this; edges meet at 0.
+double reachable(const Node& node, int slot) {
+  const Pair& pair = node.pool[slot];
+  return pair.kind == PairKind::crossing ? 0 : floor_of(node, slot);
+}
+
+bool is_clear_on_chord(const Scene& scene, const Pair& solid, int slot, const Node& node,
+                       const Flight& f) {
+  const double distance = node.clear_solids.of(node.pool.solid_number(slot), solid);
+  if (is_certified(distance, solid, 0, f)) return true;
+  const ChordHit hit = first_hit_on_chord(scene.model.tree, solid, node.q, f.dq, 0);
   return hit.outcome == ChordHit::Outcome::clear;
 }
 
@@ -23,8 +37,11 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
 
 void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   if (!is_watched(node, f, slot)) return;
+  const Pair& pair = node.pool[slot];
+  const double distance = node.clear_pairs.of(slot, pair);
+  if (!pair.is_stop() && is_certified(distance, pair, reachable(node, slot), f)) return;
   const ChordHit hit =
-      first_hit_on_chord(scene.model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
+      first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, floor_of(node, slot));
   if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const int contact = node.contact_at(slot);
   const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
@@ -42,6 +59,7 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
   if (model.pairs.empty()) return;
   double margin = 0;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
+  bound_motion(model.tree, node.kin, f.dq, f.broad);
   const Pair* solid = nullptr;
   bool is_clear = false;
   for (const int number : f.broad.candidates) {
@@ -49,7 +67,7 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
     if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
       slot_at(scene, number, node);
       solid = node.pool.solid(slot);
-      is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, node, f.dq);
+      is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, slot, node, f);
     }
     f.skips.fit(node.pool.size());
     if (!is_clear) add_if_hit(scene, slot_at(scene, number, node), node, f);

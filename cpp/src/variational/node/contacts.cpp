@@ -29,11 +29,31 @@ double nearly(const StepOptions& options, double speed) {
   return 100 * options.simultaneous * options.h * speed;
 }
 
+/// Between the lines of edges, which is the distance of edges at least.
+double line_distance(const Pair& pair, const Gap& g) {
+  if (!std::holds_alternative<Crossing>(pair.kind) || !std::isfinite(g.d)) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  return std::abs(g.d) - (g.d - g.phi);  // less the radii
+}
+
+/// The gap of a pair, noted where it is a distance.
+Gap measured_gap(const Scene& scene, int slot, Node& node) {
+  const Pair& pair = node.pool[slot];
+  const Gap g = pair_gap(scene.model.tree, node.kin, pair);
+  const bool is_crossing = pair.kind == PairKind::crossing;
+  node.clear_pairs.note(slot, pair, is_crossing ? line_distance(pair, g) : g.phi);
+  return g;
+}
+
 /// A pair that touches but does not face the other is no contact; from here on it may not sink.
 void note_silent(const Scene& scene, double near, int slot, const Gap& g, Node& node) {
   const Pair& pair = node.pool[slot];
   if (pair.kind == PairKind::crossing) {
-    if (edge_distance(scene.model.tree, node.kin, pair) > near) return;
+    if (node.clear_pairs.of(slot, pair) > near) return;
+    const double distance = edge_distance(scene.model.tree, node.kin, pair);
+    if (std::holds_alternative<Crossing>(pair.kind)) node.clear_pairs.note(slot, pair, distance);
+    if (distance > near) return;
     node.sunk[slot] = -std::numeric_limits<double>::infinity();
   } else {
     node.sunk[slot] = g.phi;
@@ -59,8 +79,9 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
   const Tree& tree = scene.model.tree;
   const StepOptions& options = scene.options;
   const Pair& pair = node.pool[slot];
-  const Gap g = pair_gap(tree, node.kin, pair);
   const double soon = options.simultaneous * options.h, near = pair.touch + nearly(options, speed);
+  if (node.clear_pairs.of(slot, pair) > near) return;
+  const Gap g = measured_gap(scene, slot, node);
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(tree, node.kin, pair, g)) return note_silent(scene, near, slot, g, node);
   if (g.phi > near) return;
@@ -150,6 +171,8 @@ void merge_witnesses(const FirstOf& first, Node& node) {
 /// The lists by slot grow with the pool.
 void fit(Node& node) {
   const auto slots = static_cast<std::size_t>(node.pool.size());
+  node.clear_pairs.fit(node.pool.size());
+  node.clear_solids.fit(node.pool.solids());
   if (node.contact_of.size() >= slots) return;
   node.contact_of.resize(slots, -1);
   node.sunk.resize(slots, 0);
@@ -208,6 +231,17 @@ bool is_near_a_stop(const Scene& scene, const Node& node) {
 
 }  // namespace
 
+/// True where parts of two solids may touch, or would within epsilon_t h.
+bool is_solid_near(const Scene& scene, double speed, int slot, Node& node) {
+  const Pair& solid = *node.pool.solid(slot);
+  const double near = solid.touch + nearly(scene.options, speed);
+  const int number = node.pool.solid_number(slot);
+  if (node.clear_solids.of(number, solid) > near) return false;
+  const double phi = pair_gap(scene.model.tree, node.kin, solid).phi;
+  node.clear_solids.note(number, solid, phi);
+  return phi <= near;
+}
+
 bool find_contacts(const Scene& scene, Node& node) {
   const ModelData& model = scene.model;
   if (!model.has_gaps()) return true;
@@ -235,8 +269,7 @@ bool find_contacts(const Scene& scene, Node& node) {
       slot_at(scene, number, node);
       merge_witnesses(first, node);
       solid = node.pool.solid(slot);
-      is_near = solid == nullptr || pair_gap(model.tree, node.kin, *solid).phi <=
-                                        solid->touch + nearly(scene.options, speed);
+      is_near = solid == nullptr || is_solid_near(scene, speed, slot, node);
       first = {node.touching, node.silent.size()};
     }
     if (is_near) add_if_touching(scene, speed, slot_at(scene, number, node), node);

@@ -19,6 +19,8 @@ Node::Node(const Scene& scene, PairPool& pairs)
       kin(scene.model.tree),
       M(scene.model.tree, scene.model.packed),
       loops(scene.model),
+      clear_pairs(scene.model.shapes.size()),
+      clear_solids(scene.model.shapes.size()),
       broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
   q.setZero(scene.model.tree.n_q);
   for (VecX* x : {&p, &v, &dq, &dense, &column}) x->setZero(scene.model.tree.n_v);
@@ -78,13 +80,30 @@ void place_frames(const Scene& scene, Node& node) {
   copy_poses(model.tree, model.packed, node.w, node.kin);
 }
 
-void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
+namespace {
+
+void put(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
   node.t = t;
   node.q = q;
   node.p = p;
   node.has_factors = false;
   // else nobody asks for them
   if (scene.model.has_gaps() || !node.dry.empty() || node.loops.some) place_frames(scene, node);
+}
+
+}  // namespace
+
+void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
+  put(scene, t, q, p, node);
+  for (Clearances* each : {&node.clear_pairs, &node.clear_solids}) each->forget();
+}
+
+void move_node(const Scene& scene, double t, const VecX& q, const VecX& p, const VecX& dq,
+               Node& node) {
+  put(scene, t, q, p, node);
+  if (scene.model.pairs.empty()) return;
+  bound_motion(scene.model.tree, node.kin, dq, node.broad);
+  for (Clearances* each : {&node.clear_pairs, &node.clear_solids}) each->go(node.broad);
 }
 
 Contact::Motion motion_of(double u, double epsilon_u) {

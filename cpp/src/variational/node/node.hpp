@@ -15,6 +15,7 @@
 #include "saltus/collision/broad_phase.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
 #include "saltus/variational/report.hpp"
+#include "variational/node/clearances.hpp"
 #include "variational/node/contact_vector.hpp"
 #include "variational/node/equalities.hpp"
 #include "variational/node/pair_pool.hpp"
@@ -68,6 +69,8 @@ struct Node {
 
   int driven_together = -1;  ///< slot of a pair that loops, or what is told, close; or -1
 
+  Clearances clear_pairs, clear_solids;  ///< of (pool) pairs and their solids
+
   // scratch
   BroadPhase broad;
   VecX dq, column;
@@ -109,6 +112,10 @@ void place_frames(const Scene& scene, Node& node);
 
 /// Puts the node there. M and v stay those of before.
 void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node);
+
+/// Puts the node at the end of an arc that starts where it is, and moves by dq (n_v).
+void move_node(const Scene& scene, double t, const VecX& q, const VecX& p, const VecX& dq,
+               Node& node);
 
 /// Writes contacts (motion included), and v where pairs are near.
 /// @return false where the mass matrix is singular.

@@ -39,6 +39,10 @@ class PairPool {
     return solid_of_[slot] < 0 ? nullptr : &solid_[solid_of_[slot]];
   }
 
+  /// Number of a pair's solid, or -1; below solids().
+  int solid_number(int slot) const { return solid_of_[slot]; }
+  int solids() const { return static_cast<int>(solid_.size()); }
+
   /// True where so many have been met that the memory of them is better given back.
   bool is_full() const;
   void clear();  ///< no effect where all are made
