@@ -159,7 +159,8 @@ bool share_as_before(const Scene& scene, Node& node, HalfKick& kick) {
     for (int k = 0; k < c->rates(); ++k) kick.u.back()[k] = dot(scene.trees, c->row(k), node.v);
   }
   const Lawlessness law = lawlessness(W, kick.u, kick.p);
-  if (law.residual <= 1e-15 * static_cast<double>(W.size())) {
+  // more than rounding would go on to the next arc, whose half kick turns it round
+  if (law.residual <= 4e-15) {
     kick.residual = law.excess;
     return true;
   }
@@ -221,8 +222,18 @@ HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
   reserve(W, boxes);
 }
 
+void remember(const HalfKick& kick, Memory& memory) {
+  for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
+    const int slot = kick.contacts[i]->slot;
+    std::vector<ImpulseMemory>& known = slot < 0 ? memory.dry : memory.impulses;
+    const auto k = static_cast<std::size_t>(slot < 0 ? -2 - slot : slot);
+    if (k < known.size() && known[k].arc == memory.arcs) known[k].p = kick.p[i];
+  }
+}
+
 bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfKick& kick) {
   kick.impulses.clear();
+  kick.contacts.clear();
   kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
   node.dq = work.arc.tau * work.arc.v;

@@ -15,6 +15,7 @@
 // stuck.
 #pragma once
 
+#include "variational/arc/memory.hpp"
 #include "variational/arc/solve.hpp"
 
 namespace saltus {
@@ -41,6 +42,10 @@ struct HalfKick {
   VecX p_before, v_before;
   PileScratch pile;
 };
+
+/// The closing half kick is what the next arc begins with, nearly: the same contacts in the same
+/// place. Its impulses are the guess.
+void remember(const HalfKick& kick, Memory& memory);
 
 /// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts.
 /// @return false where the mass matrix is singular.

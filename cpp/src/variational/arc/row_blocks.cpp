@@ -17,6 +17,13 @@ double take_rate(const Scene& scene, const Contact& c, int k, const VecX& v, Row
   return dot(scene.trees, row.rate[k], v);
 }
 
+/// The bodies move so little that rates are linear in v; those over the arc would be rounding of
+/// positions, which what rests for long must not follow.
+bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
+  const double little = 10 * row.pair->touch / arc.tau;
+  return largest(scene.trees, c.n, arc.v) <= little;
+}
+
 /// Tangential rates in the middle of the arc, where rolling has its slip: T v.
 void set_sliding(const Scene& scene, const Contact& c, Row& row, Vec3& u, ArcWork& work) {
   const Tree& tree = scene.model.tree;
@@ -32,7 +39,7 @@ void set_sliding(const Scene& scene, const Contact& c, Row& row, Vec3& u, ArcWor
 }
 
 /// Tangential rates of a point: its chord on the plane, as b's body sees it.
-void set_chord(const Scene& scene, const Contact& c, const Gap& g, Row& row, Vec3& u,
+void set_chord(const Scene& scene, const Contact& c, const Gap& g, bool still, Row& row, Vec3& u,
                ArcWork& work) {
   const Tree& tree = scene.model.tree;
   const Kinematics& kin = work.scratch.kin_end;
@@ -41,8 +48,8 @@ void set_chord(const Scene& scene, const Contact& c, const Gap& g, Row& row, Vec
   for (int k = 1; k < 3; ++k) {
     const Vec3 t = X_WJ.R * row.t_B[k - 1];
     add_motion_gradient(tree, kin, row.frozen, g.p_WA, t, work.rows.dense);
-    take_rate(scene, c, k, work.arc.v, row, work.rows);
-    u[k] = t.dot(chord) / work.arc.tau;
+    const double linear = take_rate(scene, c, k, work.arc.v, row, work.rows);
+    u[k] = still ? linear : t.dot(chord) / work.arc.tau;
   }
 }
 
@@ -75,9 +82,10 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
     if (slides && !row.is_point) set_sliding(scene, c, row, u, work);
     const Gap g = pair_gap_at_end(model, row.watched(), s);
     add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
-    take_rate(scene, c, 0, work.arc.v, row, rows);
-    u[0] = (g.phi - row.target) / tau;
-    if (slides && row.is_point) set_chord(scene, c, g, row, u, work);
+    const double linear = take_rate(scene, c, 0, work.arc.v, row, rows);
+    const bool still = is_still(scene, c, row, work.arc);
+    u[0] = still ? linear + (c.phi - row.target) / tau : (g.phi - row.target) / tau;
+    if (slides && row.is_point) set_chord(scene, c, g, still, row, u, work);
   }
 }
 

@@ -110,7 +110,7 @@ void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
   row.is_active = row.is_frozen = row.is_point = row.slides = false;
   row.axis = tangent_axis(c.n_W);
   // many that touch cannot all be brought to 0: they stay where rounding left them
-  row.target = std::min(c.phi, 0.0);
+  row.target = c.phi <= gap_rounding(c, *row.pair) ? c.phi : 0.0;
   row.p.setZero();
   row.own.setZero();
   if (is_sharp(*row.pair) || (is_rod_end(scene.model, *row.pair) && rests_on_edge(c.slot, node))) {

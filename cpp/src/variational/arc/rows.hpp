@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "variational/arc/arc.hpp"
@@ -86,6 +87,13 @@ struct Rows {
 
 /// Number k of the rows that an arc is solved with.
 inline Row& active_row(Rows& rows, std::size_t k) { return rows.row[rows.active[k]]; }
+
+/// [m] Rounding of a contact's gap.
+inline double gap_rounding(const Contact& c, const Pair& pair) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  // touch is 1e-10 of the size of what touches
+  return 4 * eps * c.point_W.cwiseAbs().maxCoeff() + 1e-5 * pair.touch;
+}
 
 /// What a row is at the node.
 inline const Contact& contact_of(const Node& node, const Row& row) {

@@ -20,14 +20,6 @@ bool is_lawful(const Lawlessness& law, double before, std::size_t contacts) {
   return law.residual > before / 2 && law.least() <= small_residual;
 }
 
-/// [m/s] What the rounding of a gap is of its rate over the arc.
-double rounding_of(const Contact& c, const Row& row, double tau) {
-  if (row.is_joint()) return 0;
-  constexpr double eps = std::numeric_limits<double>::epsilon();
-  // touch is 1e-10 of the size of what touches
-  return (4 * eps * c.point_W.cwiseAbs().maxCoeff() + 1e-5 * row.pair->touch) / tau;
-}
-
 /// What rests goes on with the velocity and the impulses of the arc before, most often: then they
 /// are lawful as they are, but for the rounding of gaps.
 bool is_lawful_guess(const Node& node, const Lawlessness& now, Rows& rows) {
@@ -38,9 +30,9 @@ bool is_lawful_guess(const Node& node, const Lawlessness& now, Rows& rows) {
   }
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
     const Row& row = active_row(rows, k);
-    const double rounding = rounding_of(contact_of(node, row), row, rows.tau);
+    const double rounding = row.is_joint() ? 0 : gap_rounding(contact_of(node, row), *row.pair);
     const double off = lawlessness_of(rows.W, static_cast<int>(k), rows.u[k], rows.p[k]);
-    if (!(off <= 1e-15 * size + scale_of(rows.W.own[k]) * rounding)) return false;
+    if (!(off <= 1e-15 * size + scale_of(rows.W.own[k]) * rounding / rows.tau)) return false;
   }
   return true;
 }

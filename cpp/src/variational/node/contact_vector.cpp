@@ -125,6 +125,12 @@ double dot(const TreeCoordinates& trees, const ContactVector& row, const VecX& x
   return sum;
 }
 
+double largest(const TreeCoordinates& trees, const ContactVector& row, const VecX& x) {
+  double most = 0;
+  for_each(trees, row, [&](double, int c) { most = std::max(most, std::abs(x[c])); });
+  return most;
+}
+
 double dot_sizes(const TreeCoordinates& trees, const ContactVector& row, const VecX& x) {
   double sum = 0;
   for_each(trees, row, [&](double value, int c) { sum += std::abs(value * x[c]); });

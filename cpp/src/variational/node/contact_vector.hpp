@@ -45,6 +45,8 @@ void take_from(const TreeCoordinates& trees, VecX& dense, ContactVector& row);
 
 double dot(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
 double dot(const ContactVector& row, const ContactVector& column);
+/// The largest |x_k| where the row may have entries.
+double largest(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
 /// sum |row_k x_k|
 double dot_sizes(const TreeCoordinates& trees, const ContactVector& row, const VecX& x);
 /// x += factor row

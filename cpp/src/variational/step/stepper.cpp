@@ -220,6 +220,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
 void Stepper::Impl::end_arc(double t) {
   if (!finish(scene, t, flight.work, node, kick)) fail(FlightOutcome::not_converged);
   if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
+  remember(kick, memory);
   if (node.driven_together >= 0) fail_driven();
   if (!(kick.residual <= large_residual)) fail_law(kick.unlawful, kick.residual);
   tell_half_kick(kick, report);
