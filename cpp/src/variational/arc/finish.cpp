@@ -227,7 +227,7 @@ void remember(const HalfKick& kick, Memory& memory) {
     const int slot = kick.contacts[i]->slot;
     std::vector<ImpulseMemory>& known = slot < 0 ? memory.dry : memory.impulses;
     const auto k = static_cast<std::size_t>(slot < 0 ? -2 - slot : slot);
-    if (k < known.size() && known[k].arc == memory.arcs) known[k].p = kick.p[i];
+    if (k < known.size() && known[k].arc == memory.arcs) known[k].p = (known[k].p + kick.p[i]) / 2;
   }
 }
 

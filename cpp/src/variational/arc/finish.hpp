@@ -43,8 +43,8 @@ struct HalfKick {
   PileScratch pile;
 };
 
-/// The closing half kick is what the next arc begins with, nearly: the same contacts in the same
-/// place. Its impulses are the guess.
+/// What rested in the arc goes on to rest, most often. The opening and the closing half kick differ
+/// by twice what was wrong with the former, so that their mean is the guess.
 void remember(const HalfKick& kick, Memory& memory);
 
 /// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts.
