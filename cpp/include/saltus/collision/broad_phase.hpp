@@ -64,9 +64,9 @@ SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedSha
                                    const PairTable& pairs, const Kinematics& kin, const VecRef& dq,
                                    double margin, BroadPhase& bp);
 
-/// Writes bp.motion: how far any point of a shape can move along the chord from q by dq (n_v), which
-/// is as far as on the way back. Half-spaces that move are without bound. Needs set_configuration
-/// at q.
+/// Writes bp.motion: how far any point of a shape can move along the chord from q by dq (n_v),
+/// which is as far as on the way back. Half-spaces that move are without bound. Needs
+/// set_configuration at q.
 SALTUS_EXPORT void bound_motion(const Tree& tree, const Kinematics& kin, const VecRef& dq,
                                 BroadPhase& bp);
 

@@ -9,13 +9,21 @@
 namespace saltus {
 namespace {
 
+/// What a row was frozen to is the same at the arc's end.
+bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
+  return arc.tau * largest(scene.trees, c.n, arc.v) <= 10 * row.pair->touch;
+}
+
 /// What the row held, as a contact at the node: its own where the node has it, and one with the
 /// plane or edge that it was held by where not.
 /// @return nullptr where edges have come to be parallel
-Contact* held_contact(const Scene& scene, const Row& row, std::size_t used, Node& node,
-                      HalfKick& kick) {
+Contact* held_contact(const Scene& scene, const Row& row, const Arc& arc, std::size_t used,
+                      Node& node, HalfKick& kick) {
   const int contact = node.contact_at(row.slot);
-  if (contact >= 0 && !row.is_frozen) return &node.contacts[contact];
+  if (contact >= 0) {
+    Contact& c = node.contacts[contact];
+    if (!row.is_frozen || is_still(scene, c, row, arc)) return &c;
+  }
   const Gap g = pair_gap(scene.model.tree, node.kin, row.watched());
   if (!std::isfinite(g.phi)) return nullptr;
   Contact& own = kick.own[used];
@@ -43,7 +51,8 @@ Vec3 push_of(const Scene& scene, const Row& row, const Contact& c, const Node& n
 
 /// Those that the arc pressed, and of those that rested at its start and were not pressed what
 /// approaches: that has not come here by itself.
-void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& kick) {
+void list_contacts(const Scene& scene, const ArcWork& work, Node& node, HalfKick& kick) {
+  const Rows& rows = work.rows;
   kick.contacts.clear();
   kick.p.clear();
   kick.sizes.clear();
@@ -57,7 +66,7 @@ void list_contacts(const Scene& scene, const Rows& rows, Node& node, HalfKick& k
       c->bound = rows.tau / 2 * node.dry_force[-1 - row.contact];
       c->slot = row.slot;
     } else if (row.is_pressed()) {
-      c = held_contact(scene, row, static_cast<std::size_t>(i), node, kick);
+      c = held_contact(scene, row, work.arc, static_cast<std::size_t>(i), node, kick);
     } else if (const int contact = node.contact_at(row.slot); contact >= 0) {
       c = &node.contacts[contact];
       if (c->motion != Contact::Motion::approaches) continue;
@@ -244,7 +253,7 @@ bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfK
   // where something was held, all of it may have parted
   const bool is_held = count_pressed(work.rows) > 0 || !node.dry.empty();
   if (is_held && !node.has_factors && !set_velocity_at_node(scene, node)) return false;
-  list_contacts(scene, work.rows, node, kick);
+  list_contacts(scene, work, node, kick);
   if (!kick.contacts.empty()) {
     share(scene, node, kick);
     if (node.loops.some) take_momentum(scene, node);

@@ -35,7 +35,7 @@ struct HalfKick {
   Neighbours neighbours;
   ContactBlocks W;
   std::vector<Vec3> u, p;
-  std::vector<Mat3> sizes;  ///< (contacts) W_ii in the arc; 0 where not known
+  std::vector<Mat3> sizes;       ///< (contacts) W_ii in the arc; 0 where not known
   std::vector<double> dry_rate;  ///< (contacts) of joints, before
   std::vector<int> sticking;     ///< (trees) joints that dry friction holds
   std::vector<Vec3> push;  ///< (1, friction) of a normal impulse of 1 where it slid; else zero

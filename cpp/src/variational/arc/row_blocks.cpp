@@ -59,9 +59,9 @@ void set_joint_rate(const Scene& scene, const Contact& c, const Arc& arc, Row& r
   u = Vec3(dot(scene.trees, c.n, arc.v), 0, 0);
 }
 
-/// Rates of the active rows at arc.v, and their gradients by the configuration they are of. Needs
-/// the poses in the arc's middle.
-void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
+}  // namespace
+
+void set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
   const ModelData& model = scene.model;
   Rows& rows = work.rows;
   ArcScratch& s = work.scratch;
@@ -88,6 +88,8 @@ void set_rates(const Scene& scene, const Node& node, ArcWork& work) {
     if (slides && row.is_point) set_chord(scene, c, g, still, row, u, work);
   }
 }
+
+namespace {
 
 /// Rows and columns of the linearised arc, without what the launch takes up.
 void linearize(const Scene& scene, const Contact& c, ArcWork& work, Row& row) {
@@ -181,27 +183,22 @@ void shorten(const ModelData& model, const ArcProblem& problem, Arc& arc, ArcScr
 
 }  // namespace
 
-Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
+double set_row_residual(const Scene& scene, const Node& node, ArcWork& work) {
   Rows& rows = work.rows;
   Arc& arc = work.arc;
   add_impulses(scene, node, rows);
   const ArcProblem problem = arc_problem(scene, arc.tau, node, work);
   arc.residual = momentum_residual(scene.model, problem, arc.v, work.scratch);
-  if (std::isfinite(arc.residual)) {  // forces cancel, their rounding does not
-    constexpr double tiny = std::numeric_limits<double>::min();
-    const auto size = work.scratch.scale.array() + rows.size.array() + tiny;
-    arc.residual = std::max((work.scratch.r.array().abs() / size).maxCoeff(),
-                            line_residual(scene.model, problem, arc.v, work.scratch));
-    if (problem.loops != nullptr) {
-      arc.residual =
-          std::max(arc.residual, loop_residual(scene.model, problem, arc.v, work.scratch));
-    }
+  if (!std::isfinite(arc.residual)) return arc.residual;
+  // forces cancel, their rounding does not
+  constexpr double tiny = std::numeric_limits<double>::min();
+  const auto size = work.scratch.scale.array() + rows.size.array() + tiny;
+  arc.residual = std::max((work.scratch.r.array().abs() / size).maxCoeff(),
+                          line_residual(scene.model, problem, arc.v, work.scratch));
+  if (problem.loops != nullptr) {
+    arc.residual = std::max(arc.residual, loop_residual(scene.model, problem, arc.v, work.scratch));
   }
-  set_rates(scene, node, work);
-  const Lawlessness out{arc.residual, arc.residual};
-  if (rows.W.size() != static_cast<int>(rows.active.size())) return out;
-  const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
-  return {std::max(out.residual, law.residual), std::max(out.excess, law.excess)};
+  return arc.residual;
 }
 
 bool step_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
@@ -218,7 +215,7 @@ bool step_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
   arc.v += s.dv;
   if (s.has_forces) shorten(model, problem, arc, s);
   if (!arc.v.allFinite()) return false;
-  set_rates(scene, node, work);
+  set_row_rates(scene, node, work);
   return true;
 }
 

@@ -13,11 +13,12 @@
 
 namespace saltus {
 
-/// Of the active rows with the impulses in rows.p: writes their rates u at arc.v, and
-/// rows.momentum, which all impulses have been added to.
-/// @return how far they are from the arc's equation and from the law; of the latter not where no
-/// W_ii are known
-Lawlessness set_row_rates(const Scene& scene, const Node& node, ArcWork& work);
+/// With the impulses in rows.p, which rows.momentum has added.
+/// @return how far arc.v is from the arc's equation
+double set_row_residual(const Scene& scene, const Node& node, ArcWork& work);
+
+/// Writes the rates u of the active rows at arc.v. Needs set_row_residual.
+void set_row_rates(const Scene& scene, const Node& node, ArcWork& work);
 
 /// One Newton step of arc.v, with the impulses as they are, and the rates u after it.
 /// @return false where there is no number

@@ -36,19 +36,19 @@ struct Row {
   bool is_frozen = false;      ///< held in a plane of b: `frozen` is the pair
   bool is_point = false;       ///< and there at a point of a: a corner, or one of a rim
   Pair frozen;
-  Vec3 point_B;                   ///< where a frozen row starts, in the frame of b's joint
-  std::array<Vec3, 2> t_B;        ///< and its tangents there
-  int axis = 0;                   ///< tangent_axis of its normal at the start
-  bool slides = false;            ///< in the arc solved: p is on its cone, against the sliding
-  double target = 0;              ///< [m] lowest gap by the arc's end
-  Vec3 p = Vec3::Zero();          ///< [N s] guess in, solution out; of what is not solved for 0
-  Mat3 own = Mat3::Zero();        ///< W_ii once solved for; before, that of the arc before, or 0
-  bool is_active = false;         ///< solved for
+  Vec3 point_B;             ///< where a frozen row starts, in the frame of b's joint
+  std::array<Vec3, 2> t_B;  ///< and its tangents there
+  int axis = 0;             ///< tangent_axis of its normal at the start
+  bool slides = false;      ///< in the arc solved: p is on its cone, against the sliding
+  double target = 0;        ///< [m] lowest gap by the arc's end
+  Vec3 p = Vec3::Zero();    ///< [N s] guess in, solution out; of what is not solved for 0
+  Mat3 own = Mat3::Zero();  ///< W_ii once solved for; before, that of the arc before, or 0
+  bool is_active = false;   ///< solved for
   std::array<ContactVector, 3> rate;    ///< du/dv, of the linearised arc; written if active
   std::array<ContactVector, 3> column;  ///< J^-1 of the forces, which act at the arc's start
   Vec3 by_launch = Vec3::Zero();        ///< what each changes of the launch's impulse
   Vec3 of_launch = Vec3::Zero();        ///< what that changes of each rate
-  std::array<VecX, 3> by_loops;   ///< (m) and of the loops'; where there are some
+  std::array<VecX, 3> by_loops;         ///< (m) and of the loops'; where there are some
 
   bool is_joint() const { return contact < 0; }
   const Pair& watched() const { return is_frozen ? frozen : *pair; }
@@ -57,9 +57,9 @@ struct Row {
 
 /// What an impulse was in an arc, for a guess.
 struct ImpulseMemory {
-  Vec3 p = Vec3::Zero();  ///< [N s] over `tau`
-  double tau = 0;         ///< [s]
-  int arc = -1;           ///< its number; of an older one it is no guess
+  Vec3 p = Vec3::Zero();    ///< [N s] over `tau`
+  double tau = 0;           ///< [s]
+  int arc = -1;             ///< its number; of an older one it is no guess
   Mat3 own = Mat3::Zero();  ///< W_ii, which says what is large
 };
 

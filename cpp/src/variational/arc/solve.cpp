@@ -101,7 +101,11 @@ void stand_still(const Scene& scene, const Node& node, ArcWork& work) {
   still_trees(scene, rows.sticking, work.arc.v);
 }
 
-bool has_sizes(const Rows& rows) { return rows.W.own.size() == rows.active.size(); }
+void note_unlawful(const Rows& rows, ArcWork& work) {
+  if (rows.W.size() != static_cast<int>(rows.u.size())) return;
+  const int worst = most_lawless(rows.W, rows.u, rows.p);
+  work.unlawful = rows.row[rows.active[static_cast<std::size_t>(worst)]].slot;
+}
 
 bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   Rows& rows = work.rows;
@@ -109,25 +113,30 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
   take_impulses(node, tau, rows);
   arc.tau = tau;
   bool is_solved = false;  // that is, the impulses are lawful for the v that belongs to them
+  Lawlessness law;
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0, idle = 0;; ++round) {
     arc.iterations = round;
-    const Lawlessness now = set_row_rates(scene, node, work);
+    set_row_residual(scene, node, work);
+    if (round > 0 && !is_solved) {  // else rates are not known yet, or are those of v
+      set_row_rates(scene, node, work);
+      law = lawlessness(rows.W, rows.u, rows.p);
+    }
+    const Lawlessness now{std::max(arc.residual, law.residual), std::max(arc.residual, law.excess)};
     rows.residual = now.least();
     const bool ends = round == most_rounds || idle == most_idle;
     const bool meets_arc = arc.residual <= most_residual;
     if (meets_arc && ends && rows.residual <= large_residual) break;
     if (meets_arc && is_solved && is_lawful(now, before, rows.active.size())) break;
     if (ends || !std::isfinite(now.residual) || !step_row_rates(scene, node, work)) {
-      const int worst = most_lawless(rows.W, rows.u, rows.p);
-      work.unlawful = active_row(rows, static_cast<std::size_t>(worst)).slot;
+      note_unlawful(rows, work);
       return false;
     }
-    const bool knows_sizes = has_sizes(rows);
+    const bool knows_sizes = rows.W.own.size() == rows.active.size();
     if (!knows_sizes) set_row_blocks(scene, node, work);
-    const Lawlessness law = lawlessness(rows.W, rows.u, rows.p);
-    is_solved = round == 0 ? is_lawful_guess(node, law, rows)
-                           : is_lawful(law, before, rows.active.size());
+    law = lawlessness(rows.W, rows.u, rows.p);
+    is_solved =
+        round == 0 ? is_lawful_guess(node, law, rows) : is_lawful(law, before, rows.active.size());
     idle = law.residual > before / 2 ? idle + 1 : 0;
     before = law.residual;
     if (is_solved) continue;

@@ -21,8 +21,9 @@ double reachable(const Node& node, int slot) {
 
 bool is_clear_on_chord(const Scene& scene, const Pair& solid, int slot, const Node& node,
                        const Flight& f) {
-  const double distance = node.clear_solids.of(node.pool.solid_number(slot), solid);
-  if (is_certified(distance, solid, 0, f)) return true;
+  const int number = node.pool.solid_number(slot);
+  if (is_certified(node.clear_solids.least(number, solid), solid, 0, f)) return true;
+  if (node.clear_solids.most(number, solid) <= solid.touch) return false;
   const ChordHit hit = first_hit_on_chord(scene.model.tree, solid, node.q, f.dq, 0);
   return hit.outcome == ChordHit::Outcome::clear;
 }
@@ -38,7 +39,7 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
 void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   if (!is_watched(node, f, slot)) return;
   const Pair& pair = node.pool[slot];
-  const double distance = node.clear_pairs.of(slot, pair);
+  const double distance = node.clear_pairs.least(slot, pair);
   if (!pair.is_stop() && is_certified(distance, pair, reachable(node, slot), f)) return;
   const ChordHit hit =
       first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, floor_of(node, slot));

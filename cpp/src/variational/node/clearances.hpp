@@ -26,11 +26,14 @@ class Clearances {
   }
 
   /// [m] What the distance of the pair `key` is at least; minus infinity where nobody knows.
-  double of(int key, const Pair& pair) const {
-    constexpr double unknown = -std::numeric_limits<double>::infinity();
-    if (pair.is_stop()) return unknown;
-    if (key >= static_cast<int>(known_.size()) || known_[key].era != era_) return unknown;
+  double least(int key, const Pair& pair) const {
+    if (!is_known(key, pair)) return -std::numeric_limits<double>::infinity();
     return known_[key].distance - (way_of(pair) - known_[key].way);
+  }
+  /// [m] And at most; infinity where nobody knows.
+  double most(int key, const Pair& pair) const {
+    if (!is_known(key, pair)) return std::numeric_limits<double>::infinity();
+    return known_[key].distance + (way_of(pair) - known_[key].way);
   }
 
   /// Needs fit.
@@ -48,6 +51,9 @@ class Clearances {
     double distance = 0, way = 0;  ///< [m] way of both shapes when it was measured
   };
 
+  bool is_known(int key, const Pair& pair) const {
+    return !pair.is_stop() && key < static_cast<int>(known_.size()) && known_[key].era == era_;
+  }
   double way_of(const Pair& pair) const { return way_[pair.a] + way_[pair.b]; }
 
   int era_ = 0;

@@ -38,22 +38,28 @@ double line_distance(const Pair& pair, const Gap& g) {
 }
 
 /// The gap of a pair, noted where it is a distance.
-Gap measured_gap(const Scene& scene, int slot, Node& node) {
+Gap measured_gap(const Scene& scene, double near, int slot, Node& node) {
   const Pair& pair = node.pool[slot];
   const Gap g = pair_gap(scene.model.tree, node.kin, pair);
-  const bool is_crossing = pair.kind == PairKind::crossing;
-  node.clear_pairs.note(slot, pair, is_crossing ? line_distance(pair, g) : g.phi);
+  const double distance = pair.kind == PairKind::crossing ? line_distance(pair, g) : g.phi;
+  if (distance > near) node.clear_pairs.note(slot, pair, distance);
   return g;
+}
+
+bool are_edges_near(const Scene& scene, double near, int slot, Node& node) {
+  const Pair& pair = node.pool[slot];
+  if (node.clear_pairs.least(slot, pair) > near) return false;
+  if (node.clear_pairs.most(slot, pair) <= near) return true;
+  const double distance = edge_distance(scene.model.tree, node.kin, pair);
+  if (std::holds_alternative<Crossing>(pair.kind)) node.clear_pairs.note(slot, pair, distance);
+  return distance <= near;
 }
 
 /// A pair that touches but does not face the other is no contact; from here on it may not sink.
 void note_silent(const Scene& scene, double near, int slot, const Gap& g, Node& node) {
   const Pair& pair = node.pool[slot];
   if (pair.kind == PairKind::crossing) {
-    if (node.clear_pairs.of(slot, pair) > near) return;
-    const double distance = edge_distance(scene.model.tree, node.kin, pair);
-    if (std::holds_alternative<Crossing>(pair.kind)) node.clear_pairs.note(slot, pair, distance);
-    if (distance > near) return;
+    if (!are_edges_near(scene, near, slot, node)) return;
     node.sunk[slot] = -std::numeric_limits<double>::infinity();
   } else {
     node.sunk[slot] = g.phi;
@@ -80,8 +86,7 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
   const StepOptions& options = scene.options;
   const Pair& pair = node.pool[slot];
   const double soon = options.simultaneous * options.h, near = pair.touch + nearly(options, speed);
-  if (node.clear_pairs.of(slot, pair) > near) return;
-  const Gap g = measured_gap(scene, slot, node);
+  const Gap g = measured_gap(scene, near, slot, node);
   if (pair.kind == PairKind::whole && g.phi > near) return;
   if (is_silent(tree, node.kin, pair, g)) return note_silent(scene, near, slot, g, node);
   if (g.phi > near) return;
@@ -236,7 +241,8 @@ bool is_solid_near(const Scene& scene, double speed, int slot, Node& node) {
   const Pair& solid = *node.pool.solid(slot);
   const double near = solid.touch + nearly(scene.options, speed);
   const int number = node.pool.solid_number(slot);
-  if (node.clear_solids.of(number, solid) > near) return false;
+  if (node.clear_solids.least(number, solid) > near) return false;
+  if (node.clear_solids.most(number, solid) <= near) return true;
   const double phi = pair_gap(scene.model.tree, node.kin, solid).phi;
   node.clear_solids.note(number, solid, phi);
   return phi <= near;
@@ -255,7 +261,7 @@ bool find_contacts(const Scene& scene, Node& node) {
   const bool is_at_a_stop = is_near_a_stop(scene, node);
   if (node.broad.candidates.empty() && !is_at_a_stop) return true;
   if (!node.has_factors && !set_velocity_at_node(scene, node)) return false;
-  const double speed = typical_speed(scene, node);
+  const double speed = typical_speed(scene, node), near = nearly(scene.options, speed);
   for (int slot = 0; is_at_a_stop && slot < node.pool.limits(); ++slot) {
     add_if_touching(scene, speed, slot, node);
   }
@@ -272,7 +278,9 @@ bool find_contacts(const Scene& scene, Node& node) {
       is_near = solid == nullptr || is_solid_near(scene, speed, slot, node);
       first = {node.touching, node.silent.size()};
     }
-    if (is_near) add_if_touching(scene, speed, slot_at(scene, number, node), node);
+    const Pair& pair = node.pool[slot];
+    if (!is_near || node.clear_pairs.least(slot, pair) > pair.touch + near) continue;
+    add_if_touching(scene, speed, slot_at(scene, number, node), node);
   }
   merge_witnesses(first, node);
   return true;
