@@ -134,6 +134,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc/closing_arc.cpp
   cpp/src/variational/arc/energy_meter.cpp
   cpp/src/variational/arc/finish.cpp
+  cpp/src/variational/arc/freeze.cpp
   cpp/src/variational/arc/launch_line.cpp
   cpp/src/variational/arc/memory.cpp
   cpp/src/variational/arc/point_dampers.cpp
@@ -147,6 +148,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/flight/flight.cpp
   cpp/src/variational/flight/impact_time.cpp
   cpp/src/variational/flight/launch.cpp
+  cpp/src/variational/flight/soft.cpp
   cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/lift.cpp

@@ -27,7 +27,8 @@ Contact* held_contact(const Scene& scene, const Row& row, const Arc& arc, std::s
   const Gap g = pair_gap(scene.model.tree, node.kin, row.watched());
   if (!std::isfinite(g.phi)) return nullptr;
   Contact& own = kick.own[used];
-  write_contact(scene, typical_speed(scene, node), row.slot, row.watched(), g, node, own);
+  write_contact(scene, typical_speed(scene, node), row.slot, row.watched(), g, node, node.dense,
+                own);
   return &own;
 }
 

@@ -20,6 +20,7 @@ double take_rate(const Scene& scene, const Contact& c, int k, const VecX& v, Row
 /// The bodies move so little that rates are linear in v; those over the arc would be rounding of
 /// positions, which what rests for long must not follow.
 bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
+  if (row.pair->is_stop()) return false;
   const double little = 10 * row.pair->touch / arc.tau;
   return largest(scene.trees, c.n, arc.v) <= little;
 }

@@ -4,73 +4,11 @@
 #include <cmath>
 
 #include "saltus/collision/slip.hpp"
+#include "variational/arc/freeze.hpp"
 #include "variational/arc/memory.hpp"
 
 namespace saltus {
 namespace {
-
-bool is_sharp(const Pair& pair) {
-  return !pair.inward.empty() && !std::holds_alternative<HalfSpace>(pair.on_b.shape);
-}
-
-/// An end of a rod on a solid with faces.
-bool is_rod_end(const ModelData& model, const Pair& pair) {
-  return pair.kind == PairKind::corner &&
-         std::holds_alternative<Capsule>(model.shapes[pair.a].shape) &&
-         (std::holds_alternative<Box>(pair.on_b.shape) ||
-          std::holds_alternative<Convex>(pair.on_b.shape));
-}
-
-/// True where the rod of an end rests on an edge of the same solid already.
-bool rests_on_edge(int end, const Node& node) {
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.motion == Contact::Motion::rests && node.pool[c.slot].kind == PairKind::crossing &&
-        node.pool.solid(c.slot) == node.pool.solid(end)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Holds the row in the plane of b that touches at the node.
-void freeze(const ModelData& model, const Node& node, Row& row) {
-  const Contact& contact = node.contacts[row.contact];
-  const Pair& pair = *row.pair;
-  row.is_frozen = true;
-  row.is_point = !pair.inward.empty() && std::holds_alternative<Sphere>(pair.on_a.shape);
-  row.frozen.kind = Whole{};
-  row.frozen.on_a = pair.on_a;
-  row.frozen.on_b.joint = pair.on_b.joint;
-  row.frozen.chain = pair.chain;  // no allocation: room for the deepest is reserved
-  row.frozen.touch = pair.touch;
-  put_plane_on_b(model.tree, node.kin, contact.p_WB, contact.n_W, row.frozen);
-  const Pose X_WJ = node.kin.X_WJ(model.tree, pair.on_b.joint);
-  row.point_B = X_WJ.R.transpose() * (contact.p_WB - X_WJ.p);
-  for (int k = 0; k < 2 && contact.friction > 0; ++k) {
-    row.t_B[k] = X_WJ.R.transpose() * contact.t_W[k];
-  }
-}
-
-bool is_rolling_rim(const Row& row) {
-  return std::holds_alternative<Rim>(row.pair->kind) && !row.is_point;
-}
-
-Vec3 in_frame(const Pose& X_WJ, const Vec3& p_W) { return X_WJ.R.transpose() * (p_W - X_WJ.p); }
-
-/// Where it touches at the node, in the frame of a's joint.
-Vec3 start_on_a(const ModelData& model, const Node& node, const Row& row) {
-  const Contact& c = node.contacts[row.contact];
-  return in_frame(node.kin.X_WJ(model.tree, row.pair->on_a.joint), c.p_WB + c.phi * c.n_W);
-}
-
-/// Holds a rim at the point that touches at the node.
-void freeze_point(const ModelData& model, const Node& node, Row& row) {
-  freeze(model, node, row);
-  row.is_point = true;
-  row.frozen.on_a.shape = Sphere{0};
-  row.frozen.on_a.X_JG = Pose{Mat3::Identity(), start_on_a(model, node, row)};
-}
 
 void fit(const Scene& scene, bool with_friction, Row& row) {
   const auto most = 2 * static_cast<std::size_t>(scene.trees.most);
@@ -100,27 +38,27 @@ void remind(const ImpulseMemory& before, double tau, Row& row) {
   row.own = before.own;
 }
 
-void add_row(const Scene& scene, int contact, const Node& node, Rows& rows) {
-  const Contact& c = node.contacts[contact];
-  rows.of_contact[contact] = rows.count;
+void add_row(const Scene& scene, const Contact& c, const Node& node, Rows& rows) {
   Row& row = next_row(rows);
-  row.contact = contact;
+  const int contact = node.contact_at(c.slot);
+  row.ahead = contact < 0 ? &c : nullptr;
+  row.contact = std::max(contact, 0);
+  if (contact >= 0) rows.of_contact[contact] = rows.count - 1;
   row.slot = c.slot;
   row.pair = &node.pool[c.slot];
   row.is_active = row.is_frozen = row.is_point = row.slides = false;
   row.axis = tangent_axis(c.n_W);
   // many that touch cannot all be brought to 0: they stay where rounding left them
-  row.target = c.phi <= gap_rounding(c, *row.pair) ? c.phi : 0.0;
+  row.target = c.phi <= gap_rounding(c, *row.pair) ? c.phi : 0;
   row.p.setZero();
   row.own.setZero();
-  if (is_sharp(*row.pair) || (is_rod_end(scene.model, *row.pair) && rests_on_edge(c.slot, node))) {
-    freeze(scene.model, node, row);
-  }
+  if (is_held_in_plane(scene.model, row, node)) freeze(scene.model, node, row);
 }
 
 void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {
   Row& row = next_row(rows);
   row.contact = -1 - dry;
+  row.ahead = nullptr;
   row.slot = -2 - dry;
   row.pair = nullptr;
   row.is_active = row.is_frozen = row.is_point = row.slides = false;
@@ -143,25 +81,6 @@ int deepest_chain(const Tree& tree) {
   return most;
 }
 
-/// The round end of a rod goes round the border of a face, if the rod lies along the border. One
-/// that lies across it is borne by the border behind its end, which stays level: where the rod as a
-/// whole sinks, though its ends do not, they are held in the plane of the face from now on.
-/// @return true where one is that was not
-bool level_rods(const Scene& scene, const VecX& q_end, const Node& node, Rows& rows,
-                ArcScratch& s) {
-  bool changed = false;
-  for (int i = 0; i < rows.count; ++i) {
-    Row& row = rows.row[i];
-    if (row.is_joint() || row.is_frozen || !is_rod_end(scene.model, *row.pair)) continue;
-    place_end(scene.model, q_end, s);
-    const Gap whole = pair_gap_at_end(scene.model, *node.pool.solid(row.slot), s);
-    if (whole.phi >= floor_of(node, row.slot)) continue;
-    freeze(scene.model, node, row);
-    changed = true;
-  }
-  return changed;
-}
-
 }  // namespace
 
 Rows::Rows(const Scene& scene) : neighbours(scene) {
@@ -181,6 +100,9 @@ Rows::Rows(const Scene& scene) : neighbours(scene) {
   for (auto* each : {&u, &p, &before}) each->reserve(reserved);
   pile.reserve(boxes);
   reserve(W, boxes);
+  for (std::size_t i = 0; i < std::min<std::size_t>(pairs, 16); ++i) {
+    ahead.push_back(fresh_contact(scene));
+  }
   for (VecX* x : {&momentum, &size, &dense, &column}) x->setZero(scene.model.tree.n_v);
 }
 
@@ -190,7 +112,7 @@ int count_pressed(const Rows& rows) {
 }
 
 void make_rows(const Scene& scene, double tau, const Node& node, const Memory& memory, Rows& rows) {
-  rows.count = 0;
+  rows.count = rows.count_ahead = 0;
   rows.active.clear();
   rows.tau = tau;
   rows.residual = 0;
@@ -199,7 +121,7 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     if (c.motion != Contact::Motion::rests) continue;
-    add_row(scene, i, node, rows);
+    add_row(scene, c, node, rows);
     Row& row = rows.row[rows.count - 1];
     const bool is_known = c.slot < static_cast<int>(memory.impulses.size()) &&
                           memory.impulses[c.slot].arc == memory.arcs;
@@ -214,7 +136,15 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
 }
 
 void rest_from_now(const Scene& scene, int contact, const Node& node, Rows& rows) {
-  add_row(scene, contact, node, rows);
+  add_row(scene, node.contacts[contact], node, rows);
+  activate(scene, rows.count - 1, node, rows);
+}
+
+void rest_ahead(const Scene& scene, const Contact& c, const Node& node, Rows& rows) {
+  const auto k = static_cast<std::size_t>(rows.count_ahead++);
+  if (k == rows.ahead.size()) rows.ahead.push_back(fresh_contact(scene));
+  rows.ahead[k] = c;
+  add_row(scene, rows.ahead[k], node, rows);
   activate(scene, rows.count - 1, node, rows);
 }
 
@@ -231,42 +161,6 @@ bool press_rows(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
     changed = true;
   }
   return changed || level_rods(scene, q_end, node, rows, s);
-}
-
-bool level_held_ends(const Scene& scene, const Node& node, Rows& rows) {
-  bool changed = false;
-  for (int i = 0; i < rows.count; ++i) {
-    Row& row = rows.row[i];
-    if (row.is_joint() || !row.is_active) continue;
-    if (is_rolling_rim(row)) {
-      freeze_point(scene.model, node, row);
-    } else if (!row.is_frozen && is_rod_end(scene.model, *row.pair)) {
-      freeze(scene.model, node, row);
-    } else {
-      continue;
-    }
-    changed = true;
-  }
-  return changed;
-}
-
-bool hold_rims_at_points(const Scene& scene, const VecX& q_end, const Node& node, Rows& rows,
-                         ArcScratch& s) {
-  const Tree& tree = scene.model.tree;
-  bool changed = false, placed = false;
-  for (const int i : rows.active) {
-    Row& row = rows.row[i];
-    if (row.is_joint() || !is_rolling_rim(row)) continue;
-    if (!placed) place_end(scene.model, q_end, s);
-    placed = true;
-    const Gap g = pair_gap_at_end(scene.model, row.watched(), s);
-    const Vec3 middle = row.pair->on_a.X_JG.p;
-    const Vec3 end = in_frame(s.kin_end.X_WJ(tree, row.pair->on_a.joint), g.p_WA);
-    if ((end - middle).dot(start_on_a(scene.model, node, row) - middle) > 0) continue;
-    freeze_point(scene.model, node, row);
-    changed = true;
-  }
-  return changed;
 }
 
 void note_sticking(const Contact& joint, double p, double bound, double u, double W,

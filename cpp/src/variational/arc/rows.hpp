@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <limits>
 #include <vector>
 
@@ -31,10 +32,11 @@ namespace saltus {
 
 struct Row {
   int contact = -1;  ///< its index in node.contacts, at the arc's start; -1 - k: node.dry[k]
-  int slot = -1;     ///< of its pair in the pool; -2 - k of dry[k]
-  const Pair* pair = nullptr;  ///< likewise; none of a joint
-  bool is_frozen = false;      ///< held in a plane of b: `frozen` is the pair
-  bool is_point = false;       ///< and there at a point of a: a corner, or one of a rim
+  const Contact* ahead = nullptr;  ///< of a pair that is open at the arc's start: what it is there
+  int slot = -1;                   ///< of its pair in the pool; -2 - k of dry[k]
+  const Pair* pair = nullptr;      ///< likewise; none of a joint
+  bool is_frozen = false;          ///< held in a plane of b: `frozen` is the pair
+  bool is_point = false;           ///< and there at a point of a: a corner, or one of a rim
   Pair frozen;
   Vec3 point_B;             ///< where a frozen row starts, in the frame of b's joint
   std::array<Vec3, 2> t_B;  ///< and its tangents there
@@ -71,8 +73,10 @@ struct Rows {
   int count = 0;
   std::vector<int> active;      ///< those that are solved for
   std::vector<int> of_contact;  ///< (touching) number of its row, or -1
-  double tau = 0;               ///< [s] the arc that their impulses are over
-  double residual = 0;          ///< of the law in the arc just solved
+  std::deque<Contact> ahead;  ///< a pool, at addresses that stay; the first `count_ahead` are used
+  int count_ahead = 0;
+  double tau = 0;       ///< [s] the arc that their impulses are over
+  double residual = 0;  ///< of the law in the arc just solved
 
   // scratch
   ContactBlocks W;  ///< of the active rows
@@ -88,8 +92,9 @@ struct Rows {
 /// Number k of the rows that an arc is solved with.
 inline Row& active_row(Rows& rows, std::size_t k) { return rows.row[rows.active[k]]; }
 
-/// [m] Rounding of a contact's gap.
+/// [m] Rounding of a contact's gap; of a joint's stop, which is linear, it is far less.
 inline double gap_rounding(const Contact& c, const Pair& pair) {
+  if (pair.is_stop()) return 0;
   constexpr double eps = std::numeric_limits<double>::epsilon();
   // touch is 1e-10 of the size of what touches
   return 4 * eps * c.point_W.cwiseAbs().maxCoeff() + 1e-5 * pair.touch;
@@ -97,6 +102,7 @@ inline double gap_rounding(const Contact& c, const Pair& pair) {
 
 /// What a row is at the node.
 inline const Contact& contact_of(const Node& node, const Row& row) {
+  if (row.ahead != nullptr) return *row.ahead;
   return row.is_joint() ? node.dry[-1 - row.contact] : node.contacts[row.contact];
 }
 
@@ -120,6 +126,10 @@ void make_rows(const Scene& scene, double tau, const Node& node, const Memory& m
 
 /// A contact that leaves, and does not from now on: it has a row that is solved for.
 void rest_from_now(const Scene& scene, int contact, const Node& node, Rows& rows);
+
+/// A pair that is open at the node, and would close in the arc so softly that it comes to rest
+/// there: it has a row that is solved for, and closes by the arc's end. `c` is it at the node.
+void rest_ahead(const Scene& scene, const Contact& c, const Node& node, Rows& rows);
 
 /// Rows of pairs that the next arc presses join those it is solved with: their gap at the end of
 /// the arc (q_end in s) is below where it may be.

@@ -170,6 +170,18 @@ ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork
   return {node.q, p, tau, has_line ? &work.line : nullptr, scene.whole_step(), node.t, loops};
 }
 
+bool guess_from_momenta(const Scene& scene, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
+  ArcScratch& s = work.scratch;
+  set_coordinates(model.tree, model.packed, node.q, s.w_end);
+  place(model.packed, s.w_end);
+  mass_pass(model.packed, s.w_end);
+  if (!factorize(model.tree, model.packed, s.w_end, 0, s.J)) return false;
+  work.arc.v = node.p;
+  solve(model.tree, model.packed, s.J, work.arc.v);
+  return work.arc.v.allFinite();
+}
+
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {
   if (work.scratch.loops) work.scratch.loops->mu.setZero();
   if (work.rows.active.empty()) {

@@ -37,4 +37,8 @@ ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork
 /// @return false where it does not converge, or the law is not met in a bounded number of rounds
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work);
 
+/// M^-1 p at the node as the guess of work.arc.v. Takes the factors of the arc.
+/// @return false where the mass matrix is singular
+bool guess_from_momenta(const Scene& scene, const Node& node, ArcWork& work);
+
 }  // namespace saltus

@@ -28,10 +28,16 @@ bool is_clear_on_chord(const Scene& scene, const Pair& solid, int slot, const No
   return hit.outcome == ChordHit::Outcome::clear;
 }
 
+/// It closes by the arc's end already.
+bool is_ahead(const Rows& rows, int slot) {
+  const auto end = rows.ahead.begin() + rows.count_ahead;
+  return std::any_of(rows.ahead.begin(), end, [&](const Contact& c) { return c.slot == slot; });
+}
+
 bool is_watched(const Node& node, const Flight& f, int slot) {
   if (f.skips.passed[slot] || std::isinf(node.sunk_at(slot))) return false;
   const int contact = node.contact_at(slot);
-  if (contact < 0) return true;
+  if (contact < 0) return !is_ahead(f.work.rows, slot);
   return node.contacts[contact].motion != Contact::Motion::rests &&
          f.work.rows.of_contact[contact] < 0;
 }

@@ -6,22 +6,10 @@
 #include "variational/flight/first_hit.hpp"
 #include "variational/flight/impact_time.hpp"
 #include "variational/flight/launch.hpp"
+#include "variational/flight/soft.hpp"
 
 namespace saltus {
 namespace {
-
-/// M^-1 p at the node as the guess. @return false where the mass matrix is singular
-bool guess_from_momenta(const Scene& scene, const Node& node, ArcWork& work) {
-  const ModelData& model = scene.model;
-  ArcScratch& s = work.scratch;
-  set_coordinates(model.tree, model.packed, node.q, s.w_end);
-  place(model.packed, s.w_end);
-  mass_pass(model.packed, s.w_end);
-  if (!factorize(model.tree, model.packed, s.w_end, 0, s.J)) return false;
-  work.arc.v = node.p;
-  solve(model.tree, model.packed, s.J, work.arc.v);
-  return work.arc.v.allFinite();
-}
 
 /// The arc over the whole remaining time, from the extrapolated guess or, should that lead astray,
 /// from the velocity at the node, last from M^-1 p there.
@@ -79,14 +67,37 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
     return found;
   }
   if (found == ImpactTime::missed) f.skips.let_pass(hit.slot);
-  if (found == ImpactTime::settles) f.settlings.push_back({node.t + f.settling_time, hit.slot});
   // The law of the arc takes the last hop away, together with all that rests: in a pile one after
   // the other would make each other hop.
-  if (found == ImpactTime::settles || found == ImpactTime::at_rest) {
+  if (found == ImpactTime::at_rest) {
     rest_from_now(scene, node.contact_at(hit.slot), node, work.rows);
   }
   work.arc.v = f.start_v;
   return found;
+}
+
+/// Rows that the arc just solved asks for, or asks to be held otherwise. @return true where some do
+bool change_rows(const Scene& scene, const Node& node, Flight& f) {
+  ArcWork& work = f.work;
+  const bool presses = press_rows(scene, work.arc.q_end, node, work.rows, work.scratch);
+  const bool rolls_over =
+      !presses && hold_rims_at_points(scene, work.arc.q_end, node, work.rows, work.scratch);
+  if (!presses && !rolls_over) return false;
+  f.skips.watch_again();
+  if (rolls_over) start_from_node(node, work);
+  return true;
+}
+
+/// What would have settled after an arc that has become shorter since has not.
+FlightOutcome arrived(Flight& f) {
+  const Rows& rows = f.work.rows;
+  const auto is_pressed = [&](const Settling& each) {
+    return std::any_of(rows.active.begin(), rows.active.end(), [&](int i) {
+      return rows.row[i].slot == each.pair && rows.row[i].is_pressed();
+    });
+  };
+  std::erase_if(f.settlings, [&](const Settling& each) { return !is_pressed(each); });
+  return FlightOutcome::arrived;
 }
 
 }  // namespace
@@ -148,20 +159,17 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       if (launch != nullptr) f.has_missed_energy = !meet(scene, tau, *launch, node, f);
       launch = nullptr;
       solved = false;
-      if (press_rows(scene, work.arc.q_end, node, work.rows, work.scratch)) {
-        f.skips.watch_again();
+      if (change_rows(scene, node, f)) {
         knows_hits = false;
-        continue;
-      }
-      if (hold_rims_at_points(scene, work.arc.q_end, node, work.rows, work.scratch)) {
-        f.skips.watch_again();
-        knows_hits = false;
-        start_from_node(node, work);
         continue;
       }
       if (!knows_hits) find_hits(scene, node, f);
+      if (rest_soft_hits(scene, node, f)) {
+        knows_hits = false;
+        continue;
+      }
       const std::optional<Hit> hit = take_first(f.hits);
-      if (!hit) return FlightOutcome::arrived;
+      if (!hit) return arrived(f);
       found = shorten(scene, *hit, tau, node, memory, f);
       knows_hits = found == ImpactTime::missed;
     } else if (level_held_ends(scene, node, work.rows)) {

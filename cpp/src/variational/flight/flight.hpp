@@ -53,7 +53,7 @@ struct Flight {
   BroadPhase broad;
   std::vector<Hit> hits;             ///< on the chord of the arc, in no order
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
-  double settling_time = 0;          ///< [s] from the node, of the pair that settles
+  Contact closing_contact;           ///< of a pair that is open at the node
   VecX dq, start_v, before_v, n;
 };
 

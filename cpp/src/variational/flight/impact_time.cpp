@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "variational/arc/closing_arc.hpp"
+#include "variational/flight/soft.hpp"
 
 namespace saltus {
 
@@ -109,20 +110,14 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
   return b.hi_is_closed ? ImpactTime::not_located : ImpactTime::missed;
 }
 
-/// A pair that touches, leaves and comes back within the arc: g(0) = 0 is the root not wanted.
-/// From g ~ u tau + a tau^2 / 2 through the arc's end, the return is near -2 u / a.
+/// A pair that touches, leaves and comes back within the arc.
 ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& memory, Flight& f) {
   const Contact& c = node.contacts[node.contact_at(slot)];
   const Pair& pair = node.pool[slot];
   const double tau = f.work.arc.tau;
-  const double drop = phi_at_end(scene, pair, f.work) - c.phi - c.u * tau;
-  if (!(drop < 0)) return ImpactTime::missed;
-  const double back = std::min(tau, -c.u * tau * tau / drop);
-  // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
-  f.settling_time = back / (1 - c.restitution);
-  // A step does not follow what is back within half of it: a contact rebounds twice a step at most.
-  const bool is_last = f.settling_time <= tau || back <= scene.options.h / 2;
-  if (c.u > 0 && c.restitution < 1 && is_last) return ImpactTime::settles;
+  const Return hop = return_of(scene, slot, node, f.work);
+  if (!(hop.drop < 0)) return ImpactTime::missed;
+  const double back = hop.back;
   if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
   // half the way back is near the top of the hop, where the gap is open; halve on if not
   double lo = back / 2;

@@ -10,7 +10,6 @@ enum class ImpactTime {
   found,          ///< the arc ends at phi = 0
   missed,         ///< the chord grazes what the arc passes: no impact
   at_rest,        ///< the pair would hop lower than pair.touch: it rests
-  settles,        ///< it bounces ever lower, and has come to rest before the arc ends
   not_converged,  ///< an arc on the way did not converge
   not_located,    ///< the root was not found in the bounded number of arcs
 };

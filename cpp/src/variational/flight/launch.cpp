@@ -13,7 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 bool has_friction_rows(const Node& node, const Rows& rows) {
   return std::any_of(rows.active.begin(), rows.active.end(), [&](int i) {
     const Row& row = rows.row[i];
-    return row.is_joint() || node.contacts[row.contact].friction > 0;
+    return row.is_joint() || contact_of(node, row).friction > 0;
   });
 }
 

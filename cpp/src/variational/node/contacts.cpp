@@ -91,11 +91,11 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
   if (is_silent(tree, node.kin, pair, g)) return note_silent(scene, near, slot, g, node);
   if (g.phi > near) return;
   Contact& c = next_in_pool(scene, node);
-  write_contact(scene, speed, slot, pair, g, node, c);
+  write_contact(scene, speed, slot, pair, g, node, node.dense, c);
   if (c.motion == Contact::Motion::approaches && !pair.inward.empty()) {
     const Vec3 motion = motion_of_point(scene, pair, contact_point(g), node, c.column);
     const Gap other = pair_gap(tree, node.kin, pair, motion);
-    write_contact(scene, speed, slot, pair, other, node, c);
+    write_contact(scene, speed, slot, pair, other, node, node.dense, c);
   }
   const bool touches = g.phi <= pair.touch || (c.u < 0 && g.phi <= -c.u * soon);
   if (touches && node.loops.some && is_held_by_loops(scene, c.n, node)) {
@@ -108,14 +108,15 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
   }
 }
 
-void set_tangents(const Scene& scene, const Gap& gap, const Pair& pair, Node& node, Contact& c) {
+void set_tangents(const Scene& scene, const Gap& gap, const Pair& pair, const Node& node,
+                  VecX& dense, Contact& c) {
   const Tangents t = tangents(gap.n_W, tangent_axis(gap.n_W));
   const Vec3 P = contact_point(gap);
   for (int k = 0; k < 2; ++k) {
     c.t_W[k] = k == 0 ? t.t0 : t.t1;
-    add_motion_gradient(scene.model.tree, node.kin, pair, P, c.t_W[k], node.dense);
+    add_motion_gradient(scene.model.tree, node.kin, pair, P, c.t_W[k], dense);
     c.t[k] = c.n;  // its parts
-    take_from(scene.trees, node.dense, c.t[k]);
+    take_from(scene.trees, dense, c.t[k]);
   }
 }
 
@@ -186,10 +187,10 @@ void fit(Node& node) {
 }  // namespace
 
 void write_contact(const Scene& scene, double speed, int slot, const Pair& as, const Gap& g,
-                   Node& node, Contact& c) {
-  add_gap_gradient(scene.model.tree, node.kin, as, g, node.dense);
+                   const Node& node, VecX& dense, Contact& c) {
+  add_gap_gradient(scene.model.tree, node.kin, as, g, dense);
   shape_row(scene.model, scene.trees, as, c.n);
-  take_from(scene.trees, node.dense, c.n);
+  take_from(scene.trees, dense, c.n);
   c.slot = slot;
   c.phi = g.phi;
   c.n_W = g.n_W;
@@ -199,7 +200,7 @@ void write_contact(const Scene& scene, double speed, int slot, const Pair& as, c
   c.restitution = properties.restitution;
   c.friction = properties.friction;
   classify(scene, node, speed, c);
-  if (c.friction > 0) set_tangents(scene, g, as, node, c);
+  if (c.friction > 0) set_tangents(scene, g, as, node, dense, c);
 }
 
 Contact fresh_contact(const Scene& scene) {

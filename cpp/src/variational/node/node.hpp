@@ -93,9 +93,10 @@ Contact fresh_contact(const Scene& scene);
 
 Contact::Motion motion_of(double u, double epsilon_u);
 
-/// Writes the contact of the pair at `slot`, with gap `g` and rows of the pair `as`. Needs M and v.
+/// Writes the contact of the pair at `slot`, with gap `g` and rows of the pair `as`. Needs v.
+/// @param dense (n_v) scratch, zero between uses
 void write_contact(const Scene& scene, double speed, int slot, const Pair& as, const Gap& g,
-                   Node& node, Contact& c);
+                   const Node& node, VecX& dense, Contact& c);
 
 /// M and v = M^-1 p at the node; loops take out of p and v what would open them.
 /// @return false where the mass matrix is singular, or the rank of the loops changes

@@ -54,7 +54,7 @@ void tell_rows(const Node& node, const Rows& rows, StepReport& report) {
   for (const int i : rows.active) {
     const Row& row = rows.row[i];
     if (row.is_joint()) continue;
-    const Contact& contact = node.contacts[row.contact];
+    const Contact& contact = contact_of(node, row);
     tell(acted(node, contact, row.p[0], across(contact, row.p)), report);
   }
 }
