@@ -115,7 +115,9 @@ set(SALTUS_SOURCES
   cpp/src/variational/law/friction_together.cpp
   cpp/src/variational/law/generalized_reflections.cpp
   cpp/src/variational/law/pile.cpp
+  cpp/src/variational/law/pile_bodies.cpp
   cpp/src/variational/law/pile_island.cpp
+  cpp/src/variational/law/pile_newton.cpp
   cpp/src/variational/uniqueness/certificate.cpp
   cpp/src/variational/uniqueness/coxeter.cpp
   cpp/src/variational/uniqueness/outcomes.cpp

@@ -17,6 +17,7 @@
 // that approach at once.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "saltus/variational/cascade.hpp"
@@ -35,6 +36,19 @@ struct ContactBlocks {
   /// (m) [N s] where it is above 0: no contact but a joint with dry friction, of one rate and an
   /// impulse of at most this, either way. Empty: contacts alone.
   std::vector<double> bound = {};
+
+  /// W_ij = rates_i . responses_j^T by coordinates, of which a contact has those of one or two
+  /// bodies (trees). Empty where that is not known; then `block` alone says what W is.
+  struct Body {
+    int first = 0, count = 0;  ///< its coordinates are numbered in a row
+  };
+  struct Factors {
+    std::array<Body, 2> body;
+    std::size_t begin = 0;  ///< of its 3 rows of body[0].count + body[1].count numbers each
+  };
+  std::vector<Factors> factors = {};  ///< (m) or empty
+  std::vector<double> rates = {}, responses = {};
+  int coordinates = 0;  ///< numbers of all are below
 
   double bound_of(int i) const { return bound.empty() ? 0 : bound[static_cast<std::size_t>(i)]; }
   int size() const { return static_cast<int>(own.size()); }

@@ -88,6 +88,9 @@ bool is_against_slip(const Scene& scene, const Contact& c, const Vec3& push, con
 /// Where the direction of friction is given, a contact has one rate, u_n, and one impulse.
 void hold_directions(HalfKick& kick) {
   ContactBlocks& W = kick.W;
+  if (std::any_of(kick.push.begin(), kick.push.end(), [](const Vec3& x) { return !x.isZero(0); })) {
+    forget_factors(W);
+  }
   for (int j = 0; j < W.size(); ++j) {
     const bool given = !kick.push[j].isZero(0);
     for (int k = W.start[j]; k < W.start[j + 1]; ++k) {
@@ -229,7 +232,8 @@ HalfKick::HalfKick(const Scene& scene) : neighbours(scene) {
   sizes.reserve(reserved);
   for (VecX* x : {&p_before, &v_before}) x->setZero(scene.model.tree.n_v);
   pile.reserve(boxes);
-  reserve(W, boxes);
+  pile.body_of.assign(static_cast<std::size_t>(scene.trees.first.back()), -1);
+  reserve(W, boxes, 6 * static_cast<std::size_t>(scene.trees.most));
 }
 
 void remember(const HalfKick& kick, Memory& memory) {

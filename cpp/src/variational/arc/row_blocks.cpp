@@ -127,10 +127,9 @@ Mat3 block_of(const Row& at, int at_rates, const Row& by, int by_rates) {
 }
 
 /// A launch couples all rows.
-void set_blocks(const Node& node, bool is_launched, Rows& rows) {
+void set_blocks(const Scene& scene, const Node& node, bool is_launched, Rows& rows) {
   ContactBlocks& W = rows.W;
-  for (auto* each : {&W.start, &W.contact}) each->clear();
-  for (auto* each : {&W.block, &W.own}) each->clear();
+  clear_blocks(W);
   const int m = static_cast<int>(rows.active.size());
   const auto row = [&](int i) -> const ContactVector& {
     return contact_of(node, active_row(rows, static_cast<std::size_t>(i))).n;
@@ -146,6 +145,12 @@ void set_blocks(const Node& node, bool is_launched, Rows& rows) {
       if (i == j) W.own.push_back((W.block.back() + W.block.back().transpose()) / 2);
     };
     W.start.push_back(static_cast<int>(W.contact.size()));
+    if (!is_launched) {
+      const auto used = static_cast<std::size_t>(rates);
+      const std::array<const ContactVector*, 3> C{&by.rate[0], &by.rate[1], &by.rate[2]};
+      const std::array<const ContactVector*, 3> R{&by.column[0], &by.column[1], &by.column[2]};
+      add_factors(scene.trees, std::span(C).first(used), std::span(R).first(used), W);
+    }
     if (is_launched) {
       for (int i = 0; i < m; ++i) add_block(i);
     } else {
@@ -226,7 +231,7 @@ void set_row_blocks(const Scene& scene, const Node& node, ArcWork& work) {
     Row& row = active_row(rows, i);
     linearize(scene, contact_of(node, row), work, row);
   }
-  set_blocks(node, is_matched(&work.line), rows);
+  set_blocks(scene, node, is_matched(&work.line), rows);
 }
 
 }  // namespace saltus

@@ -99,7 +99,8 @@ Rows::Rows(const Scene& scene) : neighbours(scene) {
   for (auto* each : {&active, &of_contact}) each->reserve(reserved);
   for (auto* each : {&u, &p, &before}) each->reserve(reserved);
   pile.reserve(boxes);
-  reserve(W, boxes);
+  pile.body_of.assign(static_cast<std::size_t>(scene.trees.first.back()), -1);
+  reserve(W, boxes, 6 * static_cast<std::size_t>(scene.trees.most));
   for (std::size_t i = 0; i < std::min<std::size_t>(pairs, 16); ++i) {
     ahead.push_back(fresh_contact(scene));
   }

@@ -39,63 +39,6 @@ void sort_by_island(const ContactBlocks& W, PileScratch& s) {
 
 }  // namespace
 
-/// H = 1 + rho K^T P' L at s.trial.
-void PileIsland::set_slope(double rho) {
-  std::fill(s_.H.begin(), s_.H.end(), 0.0);
-  for (int c = 0; c < r_; ++c) s_.H[static_cast<std::size_t>(c) * r_ + c] = 1;
-  for (int i = 0; i < k_; ++i) {
-    Mat3 D;
-    to_set(s_.trial[i], s_.friction[i], s_.bound[i], &D);
-    if (D.isZero(0)) continue;
-    const int first = s_.first[i], n = s_.last[i] - first;
-    for (int a = 0; a < 3; ++a) {
-      Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
-      x.setZero();
-      for (int b = 0; b < 3; ++b) {
-        if (D(a, b) != 0) x += rho * D(a, b) * row_of_L(3 * i + b).segment(first, n);
-      }
-    }
-    for (int a = 0; a < 3; ++a) {
-      const Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
-      const Row y = row_of_K(3 * i + a);
-      for (int c = first; c < s_.last[i]; ++c) {
-        if (y[c] != 0)
-          Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_ + first, n) += y[c] * x;
-      }
-    }
-  }
-}
-
-/// dz = -H^-1 F, by elimination with pivots; rows that have nothing there are left alone.
-bool PileIsland::solve_slope() {
-  const auto row = [&](int c) {
-    return Row(s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_, r_);
-  };
-  for (int c = 0; c < r_; ++c) s_.dz[c] = -s_.F[c];
-  for (int c = 0; c < r_; ++c) {
-    int pivot = c;
-    for (int i = c + 1; i < r_; ++i) {
-      if (std::abs(row(i)[c]) > std::abs(row(pivot)[c])) pivot = i;
-    }
-    if (!(std::abs(row(pivot)[c]) > 0)) return false;
-    if (pivot != c) {
-      row(c).swap(row(pivot));
-      std::swap(s_.dz[c], s_.dz[pivot]);
-    }
-    for (int i = c + 1; i < r_; ++i) {
-      const double factor = row(i)[c] / row(c)[c];
-      if (factor == 0) continue;
-      row(i).tail(r_ - c - 1) -= factor * row(c).tail(r_ - c - 1);
-      s_.dz[i] -= factor * s_.dz[c];
-    }
-  }
-  for (int c = r_ - 1; c >= 0; --c) {
-    const Row x(s_.dz.data(), r_);
-    s_.dz[c] = (s_.dz[c] - row(c).tail(r_ - c - 1).dot(x.tail(r_ - c - 1))) / row(c)[c];
-  }
-  return true;
-}
-
 /// Newton's method for one round, from z = 0 on. @return iterations
 int PileIsland::solve_round(double rho, bool& ended) {
   const double size_before = size_of_impulses();
@@ -208,18 +151,30 @@ Settled PileIsland::settle_scaled(double part) {
   return best;
 }
 
-void reserve(ContactBlocks& W, std::size_t contacts) {
+void reserve(ContactBlocks& W, std::size_t contacts, std::size_t numbers) {
   W.start.reserve(contacts + 1);
   W.contact.reserve(contacts * contacts);
   W.block.reserve(contacts * contacts);
   W.own.reserve(contacts);
+  W.factors.reserve(contacts);
+  for (auto* each : {&W.rates, &W.responses}) each->reserve(numbers * contacts);
   for (auto* each : {&W.friction, &W.restitution, &W.rest, &W.bound}) each->reserve(contacts);
 }
 
 void clear(ContactBlocks& W) {
+  clear_blocks(W);
+  for (auto* each : {&W.friction, &W.restitution, &W.rest, &W.bound}) each->clear();
+}
+
+void clear_blocks(ContactBlocks& W) {
   for (auto* each : {&W.start, &W.contact}) each->clear();
   for (auto* each : {&W.block, &W.own}) each->clear();
-  for (auto* each : {&W.friction, &W.restitution, &W.rest, &W.bound}) each->clear();
+  forget_factors(W);
+}
+
+void forget_factors(ContactBlocks& W) {
+  W.factors.clear();
+  for (auto* each : {&W.rates, &W.responses}) each->clear();
 }
 
 void PileScratch::reserve(std::size_t k) {
@@ -229,7 +184,9 @@ void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
-  pivot.reserve(3 * k);
+  for (auto* each : {&pivot, &ends, &farthest}) each->reserve(3 * k);
+  for (auto* each : {&body_first, &body_count, &column, &near, &queue}) each->reserve(2 * k);
+  near_begin.reserve(2 * k + 1);
 }
 
 double lawlessness_of(const ContactBlocks& W, int i, const Vec3& u, const Vec3& p) {

@@ -32,14 +32,20 @@
 
 namespace saltus {
 
-/// Room for all blocks of so many contacts.
-void reserve(ContactBlocks& W, std::size_t contacts);
+/// Room for all blocks of so many contacts, of so many rates each; 36 are those of two free bodies.
+void reserve(ContactBlocks& W, std::size_t contacts, std::size_t numbers = 36);
 
 /// Contacts are scaled so that W_ii = 1 at most.
 inline double scale_of(const Mat3& own) { return 1 / std::sqrt(own.diagonal().maxCoeff()); }
 
 /// No contacts.
 void clear(ContactBlocks& W);
+
+/// No entries; what contacts are stays.
+void clear_blocks(ContactBlocks& W);
+
+/// `block` alone says what W is from now on.
+void forget_factors(ContactBlocks& W);
 
 /// Room for settle_pile, which grows with the largest pile.
 struct PileScratch {
@@ -50,6 +56,12 @@ struct PileScratch {
   std::vector<int> pivot;        ///< (r) the rate that a column of L was made for
   std::vector<double> W, L, K;   ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
   std::vector<double> H, DL;     ///< (r, r) F', (3, r)
+  std::vector<int> ends;         ///< (r) where the entries of a row of H end
+  std::vector<int> farthest;     ///< (r) where those of all rows up to this one do
+  // bodies of one island, in an order in which neighbours are near
+  std::vector<int> body_of, column;          ///< (coordinates) number of its body; (bodies) column
+  std::vector<int> body_first, body_count;   ///< (bodies)
+  std::vector<int> near_begin, near, queue;  ///< (bodies + 1), (2 k) contacts of each; (bodies)
   std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
   std::vector<Vec3> u_best, p_best;                  ///< (k) nearest to the law so far
   std::vector<double> z, z_new, dz, F, F_new;        ///< (r)

@@ -99,22 +99,40 @@ void PileIsland::add_rate(int i, int rate) {
   ++r_;
 }
 
-/// W = L K^T by rows, in the order of contacts: L and K have the bands that W has.
+/// W = L K^T by rows: with coordinates of bodies as columns, where these are few and known; else in
+/// the order of contacts, L and K with the bands that W has.
 void PileIsland::factorize() {
-  set_W();
-  for (int i = 0; i < k_; ++i) {
-    s_.first[i] = r_;
-    for (int rate = 0; rate < 3; ++rate) {
-      row_of_L(3 * i + rate).setZero();
-      row_of_K(3 * i + rate).setZero();
+  if (find_bodies()) {
+    order_bodies();
+    take_factors();
+    balance();
+  } else {
+    set_W();
+    for (int i = 0; i < k_; ++i) {
+      s_.first[i] = r_;
+      for (int rate = 0; rate < 3; ++rate) {
+        row_of_L(3 * i + rate).setZero();
+        row_of_K(3 * i + rate).setZero();
+      }
+      for (int rate = 0; rate < 3; ++rate) add_rate(i, rate);
+      s_.last[i] = r_;
     }
-    for (int rate = 0; rate < 3; ++rate) add_rate(i, rate);
-    s_.last[i] = r_;
   }
   const auto r = static_cast<std::size_t>(r_);
   for (auto* each : {&s_.z, &s_.z_new, &s_.dz, &s_.F, &s_.F_new}) each->resize(r);
   s_.H.resize(r * r);
   s_.DL.resize(3 * r);
+  set_ends();
+}
+
+/// Rows of H reach as far as the contacts that they take part in.
+void PileIsland::set_ends() {
+  for (auto* each : {&s_.ends, &s_.farthest}) each->assign(static_cast<std::size_t>(r_), 0);
+  for (int i = 0; i < k_; ++i) {
+    for (int c = s_.first[i]; c < s_.last[i]; ++c) s_.ends[c] = std::max(s_.ends[c], s_.last[i]);
+  }
+  int farthest = 0;
+  for (int c = 0; c < r_; ++c) s_.farthest[c] = farthest = std::max({farthest, s_.ends[c], c + 1});
 }
 
 /// s.u += W dp

@@ -36,7 +36,7 @@ struct PileResidual {
 class PileIsland {
  public:
   PileIsland(const ContactBlocks& W, int begin, int end, PileScratch& s)
-      : W_(W), begin_(begin), k_(end - begin), s_(s) {}
+      : W_(W), begin_(begin), k_(end - begin), stride_(3 * k_), s_(s) {}
 
   Settled settle(double part, std::vector<Vec3>& u, std::vector<Vec3>& p);
 
@@ -46,24 +46,32 @@ class PileIsland {
   void set_base(double rho);
   int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
   Row row_of(std::vector<double>& matrix, int i) {
-    return {matrix.data() + static_cast<std::ptrdiff_t>(i) * 3 * k_, 3 * k_};
+    return {matrix.data() + static_cast<std::ptrdiff_t>(i) * stride_, stride_};
   }
+  Row row_of_H(int c) { return {s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_, r_}; }
   Row row_of_L(int i) { return row_of(s_.L, i); }
   Row row_of_K(int i) { return row_of(s_.K, i); }
   void set_sizes();
   void set_W();
   void factorize();
+  bool find_bodies();
+  void order_bodies();
+  void take_factors();
+  void balance();
+  void set_ends();
   void add_rate(int i, int rate);
   void feel(const std::vector<Vec3>& dp);
   PileResidual residual() const;
   double set_F(double rho, const std::vector<double>& z, std::vector<double>& F);
   void set_slope(double rho);
   bool solve_slope();
+  void eliminate(int c, int end);
   int solve_round(double rho, bool& ended);
   double size_of_impulses();
 
   const ContactBlocks& W_;
   int begin_, k_;          ///< contacts
+  int stride_;             ///< of rows
   int r_ = 0;              ///< columns of L and K
   bool is_convex_ = true;  ///< no friction
   PileScratch& s_;

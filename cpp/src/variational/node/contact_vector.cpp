@@ -73,10 +73,10 @@ TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.pack
     list.assign(t.trees.size(), 0);
     for (int c = 0; c < model.tree.n_v; ++c) of[0].push_back(c);
   }
-  const std::vector<int> first = tied_trees(model);
+  const std::vector<int> tied = tied_trees(model);
   for (std::size_t i = 0; i < t.trees.size() && one_to_one; ++i) {
-    const bool is_first = first[i] == static_cast<int>(i);
-    list.push_back(is_first ? static_cast<int>(of.size()) : list[first[i]]);
+    const bool is_first = tied[i] == static_cast<int>(i);
+    list.push_back(is_first ? static_cast<int>(of.size()) : list[tied[i]]);
     if (is_first) of.emplace_back();
     const PackedGroup& g = t.groups[t.trees[i].group];
     for (int k = 0; k < g.positions; ++k) {
@@ -84,9 +84,11 @@ TreeCoordinates::TreeCoordinates(const ModelData& model) : one_to_one(model.pack
     }
   }
   is_tied.assign(of.size(), 0);
-  for (std::size_t i = 0; i < first.size() && one_to_one; ++i) {
-    if (first[i] != static_cast<int>(i)) is_tied[list[i]] = 1;
+  for (std::size_t i = 0; i < tied.size() && one_to_one; ++i) {
+    if (tied[i] != static_cast<int>(i)) is_tied[list[i]] = 1;
   }
+  first.push_back(0);
+  for (const auto& each : of) first.push_back(first.back() + static_cast<int>(each.size()));
   for (const auto& each : of) most = std::max(most, static_cast<int>(each.size()));
 }
 

@@ -20,6 +20,7 @@ struct TreeCoordinates {
   std::vector<std::vector<int>> of;  ///< (lists)
   std::vector<int> list;             ///< (trees) the list that a tree is in
   std::vector<char> is_tied;         ///< (lists) of several trees
+  std::vector<int> first;            ///< (lists + 1) where its coordinates are numbered from
   bool one_to_one;                   ///< no mimic joints
   int most = 0;                      ///< entries of the longest list
 };

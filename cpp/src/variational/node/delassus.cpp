@@ -50,6 +50,31 @@ const std::vector<int>& Neighbours::of(const ContactVector& row) {
   return found_;
 }
 
+void add_factors(const TreeCoordinates& trees, std::span<const ContactVector* const> rates,
+                 std::span<const ContactVector* const> responses, ContactBlocks& W) {
+  ContactBlocks::Factors out;
+  out.begin = W.rates.size();
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ContactVector::Part& part = rates[0]->part[k];
+    if (part.tree >= 0) out.body[k] = {trees.first[part.tree], part.count};
+    count += static_cast<std::size_t>(out.body[k].count);
+  }
+  W.factors.push_back(out);
+  W.coordinates = trees.first.back();
+  const auto add = [&](std::span<const ContactVector* const> rows, std::vector<double>& to) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (k < rows.size()) {
+        to.insert(to.end(), rows[k]->value.begin(), rows[k]->value.end());
+      } else {
+        to.insert(to.end(), count, 0.0);
+      }
+    }
+  };
+  add(rates, W.rates);
+  add(responses, W.responses);
+}
+
 void set_contact_blocks(const Scene& scene, std::span<Contact* const> contacts, Node& node,
                         Neighbours& neighbours, ContactBlocks& W, std::vector<Vec3>& u) {
   clear(W);
@@ -63,6 +88,11 @@ void set_contact_blocks(const Scene& scene, std::span<Contact* const> contacts, 
       W.contact.push_back(j);
       W.block.push_back(block_of(*contacts[j], *by));
     }
+    const std::array<const ContactVector*, 3> rates{&by->n, &by->t[0], &by->t[1]};
+    const std::array<const ContactVector*, 3> responses{&by->column, &by->t_column[0],
+                                                        &by->t_column[1]};
+    const auto used = static_cast<std::size_t>(by->rates());
+    add_factors(scene.trees, std::span(rates).first(used), std::span(responses).first(used), W);
     const Mat3 own = block_of(*by, *by);
     W.own.push_back((own + own.transpose()) / 2);
     W.friction.push_back(by->friction);

@@ -33,6 +33,11 @@ class Neighbours {
   std::vector<int> found_;
 };
 
+/// Adds what W of a contact is made of: its rates and its responses, of up to three rows. Contacts
+/// are added in order.
+void add_factors(const TreeCoordinates& trees, std::span<const ContactVector* const> rates,
+                 std::span<const ContactVector* const> responses, ContactBlocks& W);
+
 /// Writes W and the rates u of these contacts, and their columns M^-1 [N; T]^T. Needs M and v.
 void set_contact_blocks(const Scene& scene, std::span<Contact* const> contacts, Node& node,
                         Neighbours& neighbours, ContactBlocks& W, std::vector<Vec3>& u);

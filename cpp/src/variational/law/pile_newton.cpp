@@ -1,0 +1,74 @@
+// Newton's matrix of a round, and its solution: for pile.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "variational/law/pile_island.hpp"
+
+namespace saltus {
+
+/// H = 1 + rho K^T P' L at s.trial.
+void PileIsland::set_slope(double rho) {
+  std::fill(s_.H.begin(), s_.H.end(), 0.0);
+  for (int c = 0; c < r_; ++c) row_of_H(c)[c] = 1;
+  for (int i = 0; i < k_; ++i) {
+    Mat3 D;
+    to_set(s_.trial[i], s_.friction[i], s_.bound[i], &D);
+    if (D.isZero(0)) continue;
+    const int first = s_.first[i], n = s_.last[i] - first;
+    for (int a = 0; a < 3; ++a) {
+      Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
+      x.setZero();
+      for (int b = 0; b < 3; ++b) {
+        if (D(a, b) != 0) x += rho * D(a, b) * row_of_L(3 * i + b).segment(first, n);
+      }
+    }
+    for (int a = 0; a < 3; ++a) {
+      const Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
+      const Row y = row_of_K(3 * i + a);
+      for (int c = first; c < s_.last[i]; ++c) {
+        if (y[c] != 0) row_of_H(c).segment(first, n) += y[c] * x;
+      }
+    }
+  }
+}
+
+/// dz = -H^-1 F, by elimination with pivots; what is beyond the ends of rows is left alone.
+bool PileIsland::solve_slope() {
+  for (int c = 0; c < r_; ++c) s_.dz[c] = -s_.F[c];
+  int end = 0;  // rows from here on have nothing in this column, by the symmetry of what is where
+  for (int c = 0; c < r_; ++c) {
+    end = std::max({end, c + 1, s_.ends[c]});
+    int pivot = c;
+    for (int i = c + 1; i < end; ++i) {
+      if (std::abs(row_of_H(i)[c]) > std::abs(row_of_H(pivot)[c])) pivot = i;
+    }
+    if (!(std::abs(row_of_H(pivot)[c]) > 0)) return false;
+    if (pivot != c) {
+      row_of_H(c).swap(row_of_H(pivot));
+      std::swap(s_.dz[c], s_.dz[pivot]);
+    }
+    eliminate(c, end);
+  }
+  for (int c = r_ - 1; c >= 0; --c) {
+    const Row x(s_.dz.data(), r_);
+    const int n = r_ - c - 1;
+    s_.dz[c] = (s_.dz[c] - row_of_H(c).tail(n).dot(x.tail(n))) / row_of_H(c)[c];
+  }
+  return true;
+}
+
+/// Column c out of the rows below, up to `end`: none of them, and none that was exchanged with one,
+/// has entries beyond the farthest end.
+void PileIsland::eliminate(int c, int end) {
+  const Row own = row_of_H(c);
+  const int n = s_.farthest[end - 1] - c - 1;
+  for (int i = c + 1; i < end; ++i) {
+    Row row = row_of_H(i);
+    const double factor = row[c] / own[c];
+    if (factor == 0) continue;
+    row.segment(c + 1, n) -= factor * own.segment(c + 1, n);
+    s_.dz[i] -= factor * s_.dz[c];
+  }
+}
+
+}  // namespace saltus
