@@ -20,16 +20,14 @@ bool is_lawful(const Lawlessness& law, double before, std::size_t contacts) {
   return law.residual > before / 2 && law.least() <= small_residual;
 }
 
-/// What rests goes on with the velocity and the impulses of the arc before, most often: then they
-/// are lawful as they are, but for the rounding of gaps.
-bool is_lawful_guess(const Node& node, const Lawlessness& now, Rows& rows) {
-  if (now.residual <= 1e-15 * static_cast<double>(rows.active.size())) return true;
+/// Lawful but for the rounding of gaps, which is much of a rate in a short arc.
+bool is_rounding(const Node& node, const Rows& rows) {
   double size = 0;
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
     size = std::max(size, rows.p[k].cwiseAbs().maxCoeff() / scale_of(rows.W.own[k]));
   }
   for (std::size_t k = 0; k < rows.active.size(); ++k) {
-    const Row& row = active_row(rows, k);
+    const Row& row = rows.row[rows.active[k]];
     const double rounding = row.is_joint() ? 0 : gap_rounding(contact_of(node, row), *row.pair);
     const double off = lawlessness_of(rows.W, static_cast<int>(k), rows.u[k], rows.p[k]);
     if (!(off <= 1e-15 * size + scale_of(rows.W.own[k]) * rounding / rows.tau)) return false;
@@ -135,8 +133,8 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     const bool knows_sizes = rows.W.own.size() == rows.active.size();
     if (!knows_sizes) set_row_blocks(scene, node, work);
     law = lawlessness(rows.W, rows.u, rows.p);
-    is_solved =
-        round == 0 ? is_lawful_guess(node, law, rows) : is_lawful(law, before, rows.active.size());
+    // what rests goes on with the velocity and the impulses of the arc before, most often
+    is_solved = is_lawful(law, before, rows.active.size()) || is_rounding(node, rows);
     idle = law.residual > before / 2 ? idle + 1 : 0;
     before = law.residual;
     if (is_solved) continue;

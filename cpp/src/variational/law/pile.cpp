@@ -184,7 +184,7 @@ void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
-  for (auto* each : {&pivot, &ends, &farthest}) each->reserve(3 * k);
+  for (auto* each : {&pivot, &ends, &reach}) each->reserve(3 * k);
   for (auto* each : {&body_first, &body_count, &column, &near, &queue}) each->reserve(2 * k);
   near_begin.reserve(2 * k + 1);
 }

@@ -57,7 +57,7 @@ struct PileScratch {
   std::vector<double> W, L, K;   ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
   std::vector<double> H, DL;     ///< (r, r) F', (3, r)
   std::vector<int> ends;         ///< (r) where the entries of a row of H end
-  std::vector<int> farthest;     ///< (r) where those of all rows up to this one do
+  std::vector<int> reach;        ///< (r) likewise, of rows as they are eliminated
   // bodies of one island, in an order in which neighbours are near
   std::vector<int> body_of, column;          ///< (coordinates) number of its body; (bodies) column
   std::vector<int> body_first, body_count;   ///< (bodies)

@@ -127,12 +127,10 @@ void PileIsland::factorize() {
 
 /// Rows of H reach as far as the contacts that they take part in.
 void PileIsland::set_ends() {
-  for (auto* each : {&s_.ends, &s_.farthest}) each->assign(static_cast<std::size_t>(r_), 0);
+  s_.ends.assign(static_cast<std::size_t>(r_), 0);
   for (int i = 0; i < k_; ++i) {
     for (int c = s_.first[i]; c < s_.last[i]; ++c) s_.ends[c] = std::max(s_.ends[c], s_.last[i]);
   }
-  int farthest = 0;
-  for (int c = 0; c < r_; ++c) s_.farthest[c] = farthest = std::max({farthest, s_.ends[c], c + 1});
 }
 
 /// s.u += W dp

@@ -35,6 +35,7 @@ void PileIsland::set_slope(double rho) {
 /// dz = -H^-1 F, by elimination with pivots; what is beyond the ends of rows is left alone.
 bool PileIsland::solve_slope() {
   for (int c = 0; c < r_; ++c) s_.dz[c] = -s_.F[c];
+  s_.reach = s_.ends;
   int end = 0;  // rows from here on have nothing in this column, by the symmetry of what is where
   for (int c = 0; c < r_; ++c) {
     end = std::max({end, c + 1, s_.ends[c]});
@@ -46,26 +47,28 @@ bool PileIsland::solve_slope() {
     if (pivot != c) {
       row_of_H(c).swap(row_of_H(pivot));
       std::swap(s_.dz[c], s_.dz[pivot]);
+      std::swap(s_.reach[c], s_.reach[pivot]);
     }
     eliminate(c, end);
   }
   for (int c = r_ - 1; c >= 0; --c) {
     const Row x(s_.dz.data(), r_);
-    const int n = r_ - c - 1;
-    s_.dz[c] = (s_.dz[c] - row_of_H(c).tail(n).dot(x.tail(n))) / row_of_H(c)[c];
+    const int n = std::max(s_.reach[c], c + 1) - c - 1;
+    const double known = row_of_H(c).segment(c + 1, n).dot(x.segment(c + 1, n));
+    s_.dz[c] = (s_.dz[c] - known) / row_of_H(c)[c];
   }
   return true;
 }
 
-/// Column c out of the rows below, up to `end`: none of them, and none that was exchanged with one,
-/// has entries beyond the farthest end.
+/// Column c out of the rows below, up to `end`.
 void PileIsland::eliminate(int c, int end) {
   const Row own = row_of_H(c);
-  const int n = s_.farthest[end - 1] - c - 1;
+  const int n = std::max(s_.reach[c], c + 1) - c - 1;
   for (int i = c + 1; i < end; ++i) {
     Row row = row_of_H(i);
     const double factor = row[c] / own[c];
     if (factor == 0) continue;
+    s_.reach[i] = std::max(s_.reach[i], s_.reach[c]);
     row.segment(c + 1, n) -= factor * own.segment(c + 1, n);
     s_.dz[i] -= factor * s_.dz[c];
   }
