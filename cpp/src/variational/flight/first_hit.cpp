@@ -35,7 +35,7 @@ bool is_ahead(const Rows& rows, int slot) {
 }
 
 bool is_watched(const Node& node, const Flight& f, int slot) {
-  if (f.skips.passed[slot] || std::isinf(node.sunk_at(slot))) return false;
+  if (f.skips.passes(slot) || std::isinf(node.sunk_at(slot))) return false;
   const int contact = node.contact_at(slot);
   if (contact < 0) return !is_ahead(f.work.rows, slot);
   return node.contacts[contact].motion != Contact::Motion::rests &&
@@ -76,7 +76,6 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
       solid = node.pool.solid(slot);
       is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, slot, node, f);
     }
-    f.skips.fit(node.pool.size());
     if (!is_clear) add_if_hit(scene, slot_at(scene, number, node), node, f);
   }
 }

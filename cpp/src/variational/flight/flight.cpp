@@ -102,27 +102,29 @@ FlightOutcome arrived(Flight& f) {
 
 }  // namespace
 
-void Skips::start(int slots) {
-  passed.assign(static_cast<std::size_t>(slots), 0);
-  passes.assign(static_cast<std::size_t>(slots), 0);
-}
-
-void Skips::fit(int slots) {
-  if (static_cast<int>(passed.size()) >= slots) return;
-  passed.resize(static_cast<std::size_t>(slots), 0);
-  passes.resize(static_cast<std::size_t>(slots), 0);
+void Skips::start() {
+  some_.clear();
+  some_.reserve(64);
 }
 
 void Skips::let_pass(int slot) {
-  passed[slot] = 1;
-  ++passes[slot];
+  for (Pass& each : some_) {
+    if (each.slot != slot) continue;
+    ++each.times;
+    each.now = true;
+    return;
+  }
+  some_.push_back({slot, 1, true});
+}
+
+bool Skips::passes(int slot) const {
+  return std::any_of(some_.begin(), some_.end(),
+                     [&](const Pass& each) { return each.slot == slot && each.now; });
 }
 
 void Skips::watch_again() {
-  constexpr char most_passes = 3;
-  for (std::size_t i = 0; i < passes.size(); ++i) {
-    if (passes[i] < most_passes) passed[i] = 0;
-  }
+  constexpr int most = 3;
+  for (Pass& each : some_) each.now = each.now && each.times >= most;
 }
 
 Flight::Flight(const Scene& scene)
@@ -136,7 +138,7 @@ Flight::Flight(const Scene& scene)
 FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const Node& node,
                   Memory& memory, Flight& f) {
   ArcWork& work = f.work;
-  f.skips.start(node.pool.size());
+  f.skips.start();
   f.settlings.clear();
   f.closing = f.ends_at = -1;
   work.line.use = LaunchLine::Use::none;

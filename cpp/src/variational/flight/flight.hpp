@@ -19,15 +19,21 @@
 
 namespace saltus {
 
-/// Pairs that no impact is sought of, as long as contacts hold as they do.
-struct Skips {
-  std::vector<char> passed;  ///< (pool) it grazes, or rests
-  std::vector<char> passes;  ///< (pool) how often that was so in this flight
-
-  void start(int slots);
-  void fit(int slots);  ///< a pair has been met for the first time
+/// Pairs that no impact is sought of, as long as contacts hold as they do: they graze, or rest.
+class Skips {
+ public:
+  void start();
   void let_pass(int slot);
+  bool passes(int slot) const;
   void watch_again();  ///< what may pass on one arc is watched on one that others hold
+
+ private:
+  struct Pass {
+    int slot;
+    int times;  ///< in this flight
+    bool now;
+  };
+  std::vector<Pass> some_;  ///< few
 };
 
 /// A gap that closes on the chord of an arc.
