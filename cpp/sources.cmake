@@ -148,6 +148,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/impact/impact.cpp
   cpp/src/variational/flight/first_hit.cpp
   cpp/src/variational/flight/flight.cpp
+  cpp/src/variational/flight/held_path.cpp
   cpp/src/variational/flight/impact_time.cpp
   cpp/src/variational/flight/launch.cpp
   cpp/src/variational/flight/soft.cpp

@@ -128,7 +128,7 @@ void Skips::watch_again() {
 }
 
 Flight::Flight(const Scene& scene)
-    : work(scene), broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
+    : work(scene), broad(scene.model.tree, scene.model.shapes, scene.model.pairs), path(scene) {
   if (scene.options.law == ImpactLaw::shadow_energy) meter.emplace(scene.model);
   settlings.reserve(64);
   hits.reserve(64);

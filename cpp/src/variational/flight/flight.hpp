@@ -15,6 +15,7 @@
 #include "variational/arc/energy_meter.hpp"
 #include "variational/arc/memory.hpp"
 #include "variational/arc/solve.hpp"
+#include "variational/flight/held_path.hpp"
 #include "variational/impact/impact.hpp"
 
 namespace saltus {
@@ -60,6 +61,7 @@ struct Flight {
   std::vector<Hit> hits;             ///< on the chord of the arc, in no order
   std::optional<EnergyMeter> meter;  ///< where the law is shadow_energy
   Contact closing_contact;           ///< of a pair that is open at the node
+  HeldPath path;
   VecX dq, start_v, before_v, n;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "variational/arc/closing_arc.hpp"
 #include "variational/flight/soft.hpp"
@@ -69,9 +70,70 @@ bool refine_at_once(const Scene& scene, const Pair& pair, double tau, double lon
   return closed;
 }
 
+/// The gap where the path has been for tau, whose velocity it leaves in arc.v.
+double gap_on_path(const Scene& scene, const Pair& pair, double tau, const Node& node, Flight& f) {
+  const ModelData& model = scene.model;
+  ArcWork& work = f.work;
+  f.path.velocity(tau, work.arc.v);
+  integrate(model.tree, node.q, tau, work.arc.v, work.scratch.q);
+  place_end(model, work.scratch.q, work.scratch);
+  return pair_gap_at_end(model, pair, work.scratch).phi;
+}
+
+/// Where the gap closes on the path: within the bracket, of which the path knows the ends nearly.
+/// Regula falsi as the Illinois method has it (M. Dowell & P. Jarratt, BIT 11, 1971).
+double root_on_path(const Scene& scene, const Pair& pair, const Bracket& b, const Node& node,
+                    Flight& f) {
+  double lo = b.lo, hi = b.hi;
+  double g_lo = gap_on_path(scene, pair, lo, node, f), g_hi = gap_on_path(scene, pair, hi, node, f);
+  if (!(g_lo > 0) || !(g_hi < 0)) return (lo + hi) / 2;
+  int side = 0;
+  for (int k = 0; k < 30 && hi - lo > 1e-14 * b.hi; ++k) {
+    const double tau = std::clamp((lo * g_hi - hi * g_lo) / (g_hi - g_lo), lo, hi);
+    const double g = gap_on_path(scene, pair, tau, node, f);
+    if (std::abs(g) <= 1e-4 * pair.touch) return tau;
+    if (g > 0) {
+      lo = tau, g_lo = g;
+      if (side > 0) g_hi /= 2;
+    } else {
+      hi = tau, g_hi = g;
+      if (side < 0) g_lo /= 2;
+    }
+    side = g > 0 ? 1 : -1;
+  }
+  return (lo + hi) / 2;
+}
+
+/// Of an arc that contacts hold, whose gap is closed at its end, b.hi, with f.start_v there.
+/// @return nothing where it comes to no end
+std::optional<ImpactTime> refine_on_path(const Scene& scene, const Pair& pair, Bracket& b,
+                                         const Node& node, Flight& f) {
+  constexpr int most_arcs = 8;  // 3 or 4 are usual
+  const double whole = b.hi;
+  f.path.start();
+  if (node.has_factors) f.path.add(0, node.v);
+  if (b.lo > 0 && f.work.arc.tau == b.lo) f.path.add(b.lo, f.work.arc.v);
+  f.path.add(whole, f.start_v);
+  for (int k = 0; k < most_arcs; ++k) {
+    const double tau = root_on_path(scene, pair, b, node, f);
+    f.path.velocity(tau, f.work.arc.v);
+    if (!solve(scene, tau, node, f.work)) return ImpactTime::not_converged;
+    const double phi = phi_at_end(scene, pair, f.work);
+    if (std::abs(phi) <= 1e-3 * pair.touch) return ImpactTime::found;
+    (phi > 0 ? b.lo : b.hi) = tau;
+    if (b.hi - b.lo <= 4e-16 * whole) break;
+    f.path.add(tau, f.work.arc.v);
+  }
+  return std::nullopt;
+}
+
 ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, const Node& node,
                   Memory& memory, Flight& f) {
   if (refine_at_once(scene, pair, tau, b.hi, node, memory, f)) return ImpactTime::found;
+  if (!is_free(f.work) && f.work.line.use == LaunchLine::Use::none && b.hi_is_closed) {
+    if (const auto found = refine_on_path(scene, pair, b, node, f)) return *found;
+    tau = (b.lo + b.hi) / 2;
+  }
   const double touch = pair.touch;
   const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();
@@ -128,7 +190,8 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
     lo /= 2;
   }
   const double start = back > lo ? back : 1.5 * lo;
-  return refine(scene, pair, std::min(start, tau), {lo, tau, false}, node, memory, f);
+  const bool closes = c.phi + c.u * tau + hop.drop < 0;
+  return refine(scene, pair, std::min(start, tau), {lo, tau, closes}, node, memory, f);
 }
 
 }  // namespace
