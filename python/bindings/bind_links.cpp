@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "model_builder_docs.hpp"
 #include "pickle.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -31,7 +32,12 @@ void bind_links(py::module_& m) {
       .def_readonly("joint", &Mimic::joint)
       .def_readonly("multiplier", &Mimic::multiplier)
       .def_readonly("offset", &Mimic::offset, "[rad | m]")
-      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
+      .def("__repr__",
+           [](const Mimic& mimic) {
+             return "Mimic(" + in_quotes(mimic.joint) +
+                    ", multiplier=" + printed("%g", mimic.multiplier) +
+                    ", offset=" + printed("%g", mimic.offset) + ")";
+           })
       .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
   py::class_<Link>(m, "Link", link_doc)
       .def_readonly("name", &Link::name)

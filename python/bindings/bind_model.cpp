@@ -1,10 +1,13 @@
 // Model floor: the frozen model and its states.
 #include <pybind11/native_enum.h>
 
+#include <cmath>
+
 #include "bindings.hpp"
 #include "model_docs.hpp"
 #include "pickle.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -31,11 +34,25 @@ void bind_state(py::module_& m) {
       .def("__copy__", [](const State& s) { return s; })
       .def(
           "__deepcopy__", [](const State& s, const py::object&) { return s; }, py::arg("memo"))
-      .def("__repr__", &show_state)
+      .def("__repr__", [](const State& s) { return without_tails(show_state(s)); })
       .def(py::pickle([](const State& s) -> py::tuple { return py::make_tuple(s.t, s.q, s.p); },
                       [](const py::tuple& t) {
                         return State{t[0].cast<double>(), t[1].cast<VecX>(), t[2].cast<VecX>()};
                       }));
+}
+
+const char* unit_of(const Coordinate& c) {
+  return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
+}
+
+std::string show_coordinate(const Coordinate& c) {
+  std::string text = "Coordinate(" + in_quotes(c.name);
+  if (c.joint != c.name) text += " of " + in_quotes(c.joint);
+  text += std::string(", [") + unit_of(c) + "]";
+  if (std::isfinite(c.lower) || std::isfinite(c.upper)) {
+    text += ", " + printed("%.4g", c.lower) + " to " + printed("%.4g", c.upper);
+  }
+  return text + ")";
 }
 
 void bind_parts(py::module_& m) {
@@ -53,10 +70,7 @@ void bind_parts(py::module_& m) {
       .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
       .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
       .def_property_readonly(
-          "unit",
-          [](const Coordinate& c) {
-            return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
-          },
+          "unit", [](const Coordinate& c) { return unit_of(c); },
           "\"m\", \"rad\", or \"1\" of a quaternion's numbers")
       .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
       .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
@@ -64,7 +78,7 @@ void bind_parts(py::module_& m) {
       .def_readonly("effort", &Coordinate::effort, "[N m | N] limit, inf where there is none")
       .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
       .def_readonly("friction", &Coordinate::friction, "[N m | N]")
-      .def("__repr__", [](const Coordinate& c) { return "Coordinate('" + c.name + "')"; });
+      .def("__repr__", &show_coordinate);
 }
 
 void bind_tree_solution(py::module_& m) {
@@ -173,7 +187,10 @@ void bind_lists(py::class_<Model>& c) {
                (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
                counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
                counted(m->pairs.size(), "pair") + ")";
-      });
+      })
+      .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
+      .def("_repr_html_",
+           [](const py::object& self) { return in_words("models", "as_html", self); });
 }
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.

@@ -208,6 +208,8 @@ def _fits(value: object, kind: str) -> bool:
         return callable(value)
     if kind.startswith("collections.abc.Sequence["):
         inside = kind.partition("[")[2][:-1]
+        if isinstance(value, str | bytes):  # one name is no list of letters
+            return False
         return isinstance(value, Iterable) and all(_fits(each, inside) for each in value)
     if kind.startswith("typing.Annotated"):
         array = _array(value)

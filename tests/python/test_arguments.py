@@ -98,6 +98,10 @@ JOINT = {"name": "hinge", "parent": "world", "child": "arm"}
             ),
             "Impact() is given pairs = ['a', 1] (list), which is no sequence of str",
         ),
+        (
+            lambda: saltus.close_loops(cradle(), keep="swing_0"),
+            "close_loops() is given keep = 'swing_0' (str), which is no sequence of str",
+        ),
     ],
 )
 def test_a_value_of_a_wrong_type(call, message):

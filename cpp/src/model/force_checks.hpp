@@ -5,8 +5,16 @@
 
 namespace saltus {
 
+/// Of what makes forces: beyond it, squares and products are no numbers any more. Infinite efforts
+/// and limits are none at all, and no such number.
+constexpr double most_number = 1e100;
+
+/// "1e+300; it is finite and at least 0", and how much at most where that is it.
+std::string refused_number(double number, bool may_be_negative);
+bool is_force_number(double number, bool may_be_negative);
+
 /// @throws ModelError on negative damping, friction, armature or stiffness, numbers that are not
-/// finite, a restitution outside of 0 .. 1, and what a joint of this type cannot have.
+/// finite or beyond most_number, a restitution outside of 0 .. 1, and what a joint of this type cannot have.
 void check_forces(const JointSpec& joint);
 
 /// @throws ModelError where the curve of its spring is none.
