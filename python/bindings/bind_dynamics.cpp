@@ -140,9 +140,7 @@ void bind_rows(py::class_<Model>& c) {
       .def(
           "accelerations",
           [](const Model& m, const Coordinates& q, const Velocities& v, const Velocities& forces,
-             double t) {
-            return of_motion<&saltus::accelerations>(m, q, v, forces, "forces", t);
-          },
+             double t) { return of_motion<&saltus::accelerations>(m, q, v, forces, "forces", t); },
           docs::model_accelerations, py::arg("q"), py::arg("v") = py::none(),
           py::arg("forces") = py::none(), py::kw_only(), py::arg("t") = 0.0)
       .def(

@@ -182,12 +182,13 @@ void bind_lists(py::class_<Model>& c) {
           py::arg("name"), "The JointInfo of this name; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
            "A copy without any pair: bodies pass through each other.")
-      .def("__repr__", [](const Model& m) {
-        return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
-               (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
-               counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
-               counted(m->pairs.size(), "pair") + ")";
-      })
+      .def("__repr__",
+           [](const Model& m) {
+             return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
+                    (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
+                    counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
+                    counted(m->pairs.size(), "pair") + ")";
+           })
       .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
       .def("_repr_html_",
            [](const py::object& self) { return in_words("models", "as_html", self); });

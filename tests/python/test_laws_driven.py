@@ -37,7 +37,7 @@ def curve(b: ModelBuilder) -> None:
 
 
 def point_spring(b: ModelBuilder) -> None:
-    b.add_spring("s", a=At("rod_1", (0, -0.3, 0)), b=At("world", (0.3, 0, 0)), stiffness=20)
+    b.add_spring("s", a=At("rod_1", (0, -0.3, 0)), b=At("world", (-0.3, -0.6, 0)), stiffness=20)
     b.set_gravity_compensation("rod_0", 0.5)
 
 

@@ -12,7 +12,7 @@ namespace {
 /// Of a frame on a body, in world axes, of motion at constant v.
 struct EndMotion {
   Pose X_WE;
-  Vec3 w = Vec3::Zero(), w_dot = Vec3::Zero();      ///< [rad/s], [rad/s^2]
+  Vec3 w = Vec3::Zero(), w_dot = Vec3::Zero();        ///< [rad/s], [rad/s^2]
   Vec3 rate = Vec3::Zero(), rate_dot = Vec3::Zero();  ///< [m/s], [m/s^2] of its origin
 };
 

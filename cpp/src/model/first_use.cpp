@@ -12,9 +12,9 @@ namespace saltus {
 namespace {
 
 constexpr int places = 2;
-constexpr double step = 1e-4;     ///< of differences: 1e-8 of the third derivative, rounding 1e-12
-constexpr double beside = 0.01;   ///< [rad | m] places from q, off kinks that a start is on
-constexpr double speed = 0.3;     ///< [rad/s | m/s] of rates there
+constexpr double step = 1e-4;    ///< of differences: 1e-8 of the third derivative, rounding 1e-12
+constexpr double beside = 0.01;  ///< [rad | m] places from q, off kinks that a start is on
+constexpr double speed = 0.3;    ///< [rad/s | m/s] of rates there
 
 /// Functions of x, as far from where they are differentiated.
 using Shifted = std::function<MatX(const VecX& dx)>;

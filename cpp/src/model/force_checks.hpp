@@ -14,7 +14,8 @@ std::string refused_number(double number, bool may_be_negative);
 bool is_force_number(double number, bool may_be_negative);
 
 /// @throws ModelError on negative damping, friction, armature or stiffness, numbers that are not
-/// finite or beyond most_number, a restitution outside of 0 .. 1, and what a joint of this type cannot have.
+/// finite or beyond most_number, a restitution outside of 0 .. 1, and what a joint of this type
+/// cannot have.
 void check_forces(const JointSpec& joint);
 
 /// @throws ModelError where the curve of its spring is none.

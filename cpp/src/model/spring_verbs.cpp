@@ -61,8 +61,7 @@ void check_curve(const JointSpec& joint) {
 void check_spring(const SpringSpec& spring) {
   const auto check = [&](double number, const char* what) {
     if (is_force_number(number, false)) return;
-    fail("spring", spring.name,
-         std::string("has ") + what + " " + refused_number(number, false));
+    fail("spring", spring.name, std::string("has ") + what + " " + refused_number(number, false));
   };
   check(spring.stiffness, "stiffness");
   check(spring.length, "length");
@@ -93,7 +92,8 @@ ModelBuilder& ModelBuilder::add_joint_spring(const std::string& name, std::vecto
   changed.curve_x = std::move(x);
   changed.curve_f = std::move(f);
   changed.curve_slopes = slopes;
-  if (changed.curve_x.empty()) fail("joint", name, "has a spring's curve of no points");
+  if (changed.curve_x.empty() && changed.curve_f.empty())
+    fail("joint", name, "has a spring's curve of no points");
   check_forces(changed);
   sprung = std::move(changed);
   return *this;

@@ -133,7 +133,7 @@ void Crew::make_run(long i, Stepper& stepper, EnergyMeter& meter, Worker& me) {
         has_own ? options_.policies[static_cast<std::size_t>(i)] : options_.run.policy;
     run(out_.model, plan_, starts_[i], go_on, policy, stepper, meter, rows_of(out_, i), outcome);
   } catch (const std::bad_alloc&) {
-    throw;  // no run's own
+    throw;                                 // no run's own
   } catch (const std::exception& error) {  // of ours, or of what a user's function threw
     outcome.failure = error.what();
     fail_run(i);

@@ -12,8 +12,8 @@ namespace saltus::reader {
 void add_transmissions(const Document& document, ModelBuilder& builder);
 
 /// `<motor>`, `<position_servo>`, `<velocity_servo>`, `<actuator>`, `<spring>`,
-/// `<gravity_compensation>`, and `<joint>` with armature, spring or curve, and restitution. @return false where the element is none of
-/// these.
+/// `<gravity_compensation>`, and `<joint>` with armature, spring or curve, and restitution. @return
+/// false where the element is none of these.
 bool add_force_element(const Document& document, const XMLElement& element, ModelBuilder& builder);
 
 }  // namespace saltus::reader

@@ -102,7 +102,8 @@ std::vector<ElementRule> drive_rules() {
        .texts = {{"name", required}, {"joint", required}},
        .strict = true},
       {.name = "actuator",
-       .numbers = {{"gain"}, {"bias", 3}, effort, {"control", 2, !required, !positive, may_be_infinite}},
+       .numbers =
+           {{"gain"}, {"bias", 3}, effort, {"control", 2, !required, !positive, may_be_infinite}},
        .texts = {{"name", required}, {"joints", required}, {"ratios"}},
        .strict = true},
       {.name = "spring",

@@ -4,9 +4,8 @@
 // Theory, F6. An end is a frame on a body, P its origin, n the z axis of the second:
 //
 //   point     P_a - P_b = 0                                   3 rows, world axes
-//   weld      the same, and 2 vec(Q_ba) = 0                   6; Q_ba the quaternion of R_ba, w >= 0
-//   distance  |P_a - P_b| - distance = 0                      1
-//   on_plane  n.(P_a - P_b) = 0                               1
+//   weld      the same, and 2 vec(Q_ba) = 0                   6; Q_ba the quaternion of R_ba, w >=
+//   0 distance  |P_a - P_b| - distance = 0                      1 on_plane  n.(P_a - P_b) = 0 1
 //   coupling  x_a - polynomial(x_b) = 0                       1; displacements of two joints
 //   prescribed  x_a - x(t) = 0                                1; of one
 //

@@ -84,9 +84,9 @@ class SALTUS_EXPORT Frames {
   VecX q_;
   Packed w_;
   PackedForces forces_;
-  std::optional<PackedMatrix> M_;  ///< made where it is first needed
+  std::optional<PackedMatrix> M_;      ///< made where it is first needed
   std::optional<LoopDynamics> loops_;  ///< where the model has some
-  VecX zero_;                      ///< (n_v)
+  VecX zero_;                          ///< (n_v)
   bool summed_ = false;
 };
 

@@ -23,10 +23,10 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
 
 void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   if (!is_watched(node, f, slot)) return;
-  const ChordHit hit =
-      first_hit_on_chord(scene.model.tree, node.pool[slot], node.q, f.dq, floor_of(node, slot));
-  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const int contact = node.contact_at(slot);
+  const double level = contact < 0 ? press_below(node, slot) : floor_of(node, slot);
+  const ChordHit hit = first_hit_on_chord(scene.model.tree, node.pool[slot], node.q, f.dq, level);
+  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
   f.hits.push_back({slot, hit.s, hops});
 }

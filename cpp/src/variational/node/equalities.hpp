@@ -5,8 +5,8 @@
 // `hold`, and momenta are those with A^T M^-1 p = 0.
 #pragma once
 
-#include "saltus/model/model.hpp"
 #include "saltus/constraint/equality_solver.hpp"
+#include "saltus/model/model.hpp"
 
 namespace saltus {
 

@@ -135,7 +135,8 @@ double typical_speed(const Scene& scene, const Node& node);
 /// The gap below which a pair that rests at the node is pressed: it may not sink any further.
 double floor_of(const Node& node, int slot);
 
-/// Below which a pair that rests at the node is pressed in the arc: floor_of, but for stops. A stop
+/// Below which a pair that rests at the node is pressed in the arc, and one that does not touch
+/// hits: floor_of, but for stops. A stop
 /// is a number, exact to rounding, and a joint that sank by less than its touch in each arc would
 /// creep for ever under a small force; it sinks by next to nothing, and once. Gaps of shapes are no
 /// better than their touch.
