@@ -1,8 +1,6 @@
 // Model floor: the frozen model and its states.
 #include <pybind11/native_enum.h>
 
-#include <cmath>
-
 #include "bindings.hpp"
 #include "model_docs.hpp"
 #include "pickle.hpp"
@@ -41,20 +39,6 @@ void bind_state(py::module_& m) {
                       }));
 }
 
-const char* unit_of(const Coordinate& c) {
-  return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
-}
-
-std::string show_coordinate(const Coordinate& c) {
-  std::string text = "Coordinate(" + in_quotes(c.name);
-  if (c.joint != c.name) text += " of " + in_quotes(c.joint);
-  text += std::string(", [") + unit_of(c) + "]";
-  if (std::isfinite(c.lower) || std::isfinite(c.upper)) {
-    text += ", " + printed("%.4g", c.lower) + " to " + printed("%.4g", c.upper);
-  }
-  return text + ")";
-}
-
 void bind_parts(py::module_& m) {
   py::native_enum<JointType>(m, "JointType", "enum.Enum", docs::joint_type)
       .value("fixed", JointType::fixed)
@@ -66,19 +50,6 @@ void bind_parts(py::module_& m) {
       .value("floating", JointType::floating)
       .value("spherical", JointType::spherical)
       .finalize();
-  py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
-      .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
-      .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
-      .def_property_readonly(
-          "unit", [](const Coordinate& c) { return unit_of(c); },
-          "\"m\", \"rad\", or \"1\" of a quaternion's numbers")
-      .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
-      .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
-      .def_readonly("velocity", &Coordinate::velocity, "[rad/s | m/s] limit, inf where none")
-      .def_readonly("effort", &Coordinate::effort, "[N m | N] limit, inf where there is none")
-      .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
-      .def_readonly("friction", &Coordinate::friction, "[N m | N]")
-      .def("__repr__", &show_coordinate);
 }
 
 void bind_tree_solution(py::module_& m) {
@@ -181,14 +152,17 @@ void bind_lists(py::class_<Model>& c) {
           "joint", [](const Model& m, const std::string& name) { return m->joints[m.joint(name)]; },
           py::arg("name"), "The JointInfo of this name; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
-           "A copy without any pair: bodies pass through each other.")
-      .def("__repr__",
-           [](const Model& m) {
-             return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
-                    (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
-                    counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
-                    counted(m->pairs.size(), "pair") + ")";
-           })
+           "A copy without any pair: bodies pass through each other.");
+}
+
+void bind_words(py::class_<Model>& c) {
+  c.def("__repr__",
+        [](const Model& m) {
+          return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
+                 (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
+                 counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
+                 counted(m->pairs.size(), "pair") + ")";
+        })
       .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
       .def("_repr_html_",
            [](const py::object& self) { return in_words("models", "as_html", self); });
@@ -257,6 +231,7 @@ void bind_model(py::module_& m) {
   bind_copies(c);
   bind_descriptions(c, m);
   bind_model_sensors(c);
+  bind_words(c);
   bind_configurations(c);
   bind_model_forces(c);
   bind_model_loops(c, m);

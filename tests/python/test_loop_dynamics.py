@@ -183,7 +183,7 @@ def test_rows_are_as_each_alone_and_errors_name_them() -> None:
             model.inverse_dynamics(q, v, a)[k], model.inverse_dynamics(q[k], v[k], a[k])
         )
     v[2] += 1.0
-    with pytest.raises(ModelError, match='row 2: loop "pin" opens at a rate of .*close_loops'):
+    with pytest.raises(ModelError, match=r'row 2: loop "pin" opens at a rate of .*close_loops'):
         model.accelerations(q, v)
 
 

@@ -1,13 +1,10 @@
 // What is wrong with a joint's forces and with an actuator.
 #pragma once
 
+#include "saltus/force/most_number.hpp"
 #include "saltus/model/description.hpp"
 
 namespace saltus {
-
-/// Of what makes forces: beyond it, squares and products are no numbers any more. Infinite efforts
-/// and limits are none at all, and no such number.
-constexpr double most_number = 1e100;
 
 /// "1e+300; it is finite and at least 0", and how much at most where that is it.
 std::string refused_number(double number, bool may_be_negative);

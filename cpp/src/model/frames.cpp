@@ -206,6 +206,7 @@ void Frames::factorize_mass() {
 void Frames::inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out, double t) {
   check_vector(v, model_.n_v(), "v", "velocities");
   check_vector(a, model_.n_v(), "a", "velocities");
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
   if (loops_) {
     set_loops(*model_, q_, v, t, *loops_);
     check_accelerations(*model_, a, *loops_);
@@ -220,6 +221,7 @@ void Frames::inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out, doubl
 void Frames::accelerations(const VecRef& v, const VecRef& forces, VecX& out, double t) {
   check_vector(v, model_.n_v(), "v", "velocities");
   check_vector(forces, model_.n_v(), "forces", "velocities");
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
   if (loops_) set_loops(*model_, q_, v, t, *loops_);
   set_tree_forces(v, zero_, out);
   out = forces - out;

@@ -45,7 +45,6 @@ LoopDynamics::LoopDynamics(const ModelData& model)
 
 void set_loops(const ModelData& model, const VecRef& q, const VecRef& v, double t,
                LoopDynamics& loops) {
-  if (!std::isfinite(t)) throw ModelError("t is not finite");
   set_configuration(model.tree, q, loops.kin);
   set_velocity(model.tree, v, loops.kin);
   set_equalities(model.tree, model.equalities, loops.kin, q, t, loops.values);

@@ -16,7 +16,6 @@ from saltus._core import (
     ModelError,
     OnFailure,
     State,
-    StepError,
     StepOptions,
     Wrench,
 )
