@@ -190,9 +190,9 @@ def _misfit(name: str, value: object, annotation: str) -> str:
     start = f"{name} = {_show(value)} ({type(value).__name__})"
     words = dict.fromkeys(word for kind in kinds if (word := _in_words(kind)))
     text = f"{start}, which is no {' or '.join(words)}"
-    if len(kinds) == 1 and kinds[0].startswith("typing.Annotated[numpy"):
-        if (array := _array(value)) is not None:
-            return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
+    is_array = len(kinds) == 1 and kinds[0].startswith("typing.Annotated[numpy")
+    if is_array and (array := _array(value)) is not None:
+        return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
     return text
 
 
