@@ -101,7 +101,8 @@ Raises
 ------
 ModelError
     On a name that is taken; `build` on coordinates that do not exist. Steps where the function
-    returns something else, or numbers that are not finite.
+    returns something else, or numbers that are not finite, and the first one of a model where Q_q
+    or Q_v is not the derivative (`check_derivatives` looks at more places).
 )";
 
 constexpr auto add_potential = R"(Adds a potential V(q), by three functions of q.
@@ -125,7 +126,8 @@ Raises
 ------
 ModelError
     On a name that is taken. Whatever asks for the potential, where a function returns another
-    shape, or numbers that are not finite.
+    shape, or numbers that are not finite; the first step of a model, and `equilibrium`, where
+    gradient or Hessian is not the derivative (`check_derivatives` looks at more places).
 )";
 
 constexpr auto force_moment = R"(When and where a force is asked for: the middle of an arc.
