@@ -101,7 +101,21 @@ std::vector<Pair> pairs(const Model& model) {
   return list;
 }
 
+void bind_words(py::class_<Model>& c) {
+  c.def("__repr__",
+        [](const Model& m) {
+          return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
+                 (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
+                 counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
+                 counted(m->pairs.size(), "pair") + ")";
+        })
+      .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
+      .def("_repr_html_",
+           [](const py::object& self) { return in_words("models", "as_html", self); });
+}
+
 void bind_lists(py::class_<Model>& c) {
+  bind_words(c);
   c.def_property_readonly("name", [](const Model& m) { return m->name; })
       .def_property_readonly("n_q", &Model::n_q, "numbers in q: a ball joint has four")
       .def_property_readonly("n_v", &Model::n_v, "numbers in v and p: a ball joint has three")
@@ -153,19 +167,6 @@ void bind_lists(py::class_<Model>& c) {
           py::arg("name"), "The JointInfo of this name; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
            "A copy without any pair: bodies pass through each other.");
-}
-
-void bind_words(py::class_<Model>& c) {
-  c.def("__repr__",
-        [](const Model& m) {
-          return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
-                 (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
-                 counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
-                 counted(m->pairs.size(), "pair") + ")";
-        })
-      .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
-      .def("_repr_html_",
-           [](const py::object& self) { return in_words("models", "as_html", self); });
 }
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.
@@ -231,7 +232,6 @@ void bind_model(py::module_& m) {
   bind_copies(c);
   bind_descriptions(c, m);
   bind_model_sensors(c);
-  bind_words(c);
   bind_configurations(c);
   bind_model_forces(c);
   bind_model_loops(c, m);
