@@ -35,6 +35,8 @@ set(SALTUS_SOURCES
   cpp/src/force/force_model.cpp
   # constraint
   cpp/src/constraint/equality.cpp
+  cpp/src/constraint/equality_bend.cpp
+  cpp/src/constraint/equality_solver.cpp
   # collision
   cpp/src/collision/shapes/box.cpp
   cpp/src/collision/shapes/capsule.cpp
@@ -77,6 +79,8 @@ set(SALTUS_SOURCES
   cpp/src/model/check_derivatives.cpp
   cpp/src/model/configuration.cpp
   cpp/src/model/dynamics.cpp
+  cpp/src/model/loop_dynamics.cpp
+  cpp/src/model/first_use.cpp
   cpp/src/model/description_checks.cpp
   cpp/src/model/filter.cpp
   cpp/src/model/force_verbs.cpp
@@ -125,7 +129,6 @@ set(SALTUS_SOURCES
   cpp/src/variational/node/contact_vector.cpp
   cpp/src/variational/node/delassus.cpp
   cpp/src/variational/node/equalities.cpp
-  cpp/src/variational/node/equality_solver.cpp
   cpp/src/variational/node/contacts.cpp
   cpp/src/variational/node/node.cpp
   cpp/src/variational/node/pair_pool.cpp

@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "dynamics_docs.hpp"
 #include "saltus/model/dynamics.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -113,9 +114,9 @@ py::array_t<double> of_q(const Model& model, const Coordinates& q, py::ssize_t w
 /// A function of q, v and another, which is like v.
 template <auto f>
 py::array_t<double> of_motion(const Model& model, const Coordinates& q, const Velocities& v,
-                              const Velocities& other, const char* name) {
+                              const Velocities& other, const char* name, double t) {
   const Rows at = q_of(q, model), rate = v_of(v, model), third = v_of(other, model, name);
-  return reshaped(unlocked([&] { return f(model, at.x, rate.x, third.x); }),
+  return reshaped(unlocked([&] { return f(model, at.x, rate.x, third.x, t); }),
                   at.many || rate.many || third.many, {model.n_v()});
 }
 
@@ -138,18 +139,16 @@ void bind_rows(py::class_<Model>& c) {
         py::arg("point") = py::none())
       .def(
           "accelerations",
-          [](const Model& m, const Coordinates& q, const Velocities& v, const Velocities& forces) {
-            return of_motion<&saltus::accelerations>(m, q, v, forces, "forces");
-          },
+          [](const Model& m, const Coordinates& q, const Velocities& v, const Velocities& forces,
+             double t) { return of_motion<&saltus::accelerations>(m, q, v, forces, "forces", t); },
           docs::model_accelerations, py::arg("q"), py::arg("v") = py::none(),
-          py::arg("forces") = py::none())
+          py::arg("forces") = py::none(), py::kw_only(), py::arg("t") = 0.0)
       .def(
           "inverse_dynamics",
-          [](const Model& m, const Coordinates& q, const Velocities& v, const Velocities& a) {
-            return of_motion<&saltus::inverse_dynamics>(m, q, v, a, "a");
-          },
+          [](const Model& m, const Coordinates& q, const Velocities& v, const Velocities& a,
+             double t) { return of_motion<&saltus::inverse_dynamics>(m, q, v, a, "a", t); },
           docs::model_inverse_dynamics, py::arg("q"), py::arg("v") = py::none(),
-          py::arg("a") = py::none())
+          py::arg("a") = py::none(), py::kw_only(), py::arg("t") = 0.0)
       .def(
           "gravity_forces",
           [](const Model& m, const Coordinates& q) {
@@ -203,20 +202,23 @@ void bind_frames_dynamics(py::class_<Frames>& c) {
        "What gravity does to the coordinates [N m | N], shape (n_v,); see `Model`.")
       .def(
           "inverse_dynamics",
-          [](Frames& f, const Velocities& v, const Velocities& a) {
+          [](Frames& f, const Velocities& v, const Velocities& a, double t) {
             VecX out;
-            f.inverse_dynamics(to_vector(v, f.model()), to_vector(a, f.model(), "a"), out);
+            f.inverse_dynamics(to_vector(v, f.model()), to_vector(a, f.model(), "a"), out, t);
             return out;
           },
-          docs::frames_inverse_dynamics, py::arg("v") = py::none(), py::arg("a") = py::none())
+          docs::frames_inverse_dynamics, py::arg("v") = py::none(), py::arg("a") = py::none(),
+          py::kw_only(), py::arg("t") = 0.0)
       .def(
           "accelerations",
-          [](Frames& f, const Velocities& v, const Velocities& forces) {
+          [](Frames& f, const Velocities& v, const Velocities& forces, double t) {
             VecX out;
-            f.accelerations(to_vector(v, f.model()), to_vector(forces, f.model(), "forces"), out);
+            f.accelerations(to_vector(v, f.model()), to_vector(forces, f.model(), "forces"), out,
+                            t);
             return out;
           },
-          docs::frames_accelerations, py::arg("v") = py::none(), py::arg("forces") = py::none());
+          docs::frames_accelerations, py::arg("v") = py::none(), py::arg("forces") = py::none(),
+          py::kw_only(), py::arg("t") = 0.0);
 }
 
 py::array_t<double> reshape_poses(MatX&& rows) { return reshaped(std::move(rows), true, {4, 4}); }
@@ -259,8 +261,8 @@ void bind_frames(py::module_& m) {
       .def("momentum", &frames_momentum, docs::frames_momentum, py::arg("v"), py::kw_only(),
            py::arg("about") = py::none())
       .def("__repr__", [](const Frames& f) {
-        return "Frames('" + f.model()->name +
-               "', q=" + py::str(py::cast(f.q()).attr("tolist")()).cast<std::string>() + ")";
+        return without_tails("Frames('" + f.model()->name + "', q=" +
+                             py::str(py::cast(f.q()).attr("tolist")()).cast<std::string>() + ")");
       });
   bind_frames_dynamics(c);
 }

@@ -1,7 +1,11 @@
 // Model floor: the links and joints of a model, as their author described them.
+#include <cmath>
+
 #include "bindings.hpp"
 #include "model_builder_docs.hpp"
+#include "model_docs.hpp"
 #include "pickle.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -20,9 +24,40 @@ std::string number(double x) { return py::repr(py::float_(x)).cast<std::string>(
 
 std::string name_of(JointType type) { return py::cast(type).attr("name").cast<std::string>(); }
 
+const char* unit_of(const Coordinate& c) {
+  return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
+}
+
+std::string show_coordinate(const Coordinate& c) {
+  std::string text = "Coordinate(" + in_quotes(c.name);
+  if (c.joint != c.name) text += " of " + in_quotes(c.joint);
+  text += std::string(", [") + unit_of(c) + "]";
+  if (std::isfinite(c.lower) || std::isfinite(c.upper)) {
+    text += ", " + printed("%.4g", c.lower) + " to " + printed("%.4g", c.upper);
+  }
+  return text + ")";
+}
+
+void bind_coordinate(py::module_& m) {
+  py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
+      .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
+      .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
+      .def_property_readonly(
+          "unit", [](const Coordinate& c) { return unit_of(c); },
+          "\"m\", \"rad\", or \"1\" of a quaternion's numbers")
+      .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
+      .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
+      .def_readonly("velocity", &Coordinate::velocity, "[rad/s | m/s] limit, inf where none")
+      .def_readonly("effort", &Coordinate::effort, "[N m | N] limit, inf where there is none")
+      .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
+      .def_readonly("friction", &Coordinate::friction, "[N m | N]")
+      .def("__repr__", &show_coordinate);
+}
+
 }  // namespace
 
 void bind_links(py::module_& m) {
+  bind_coordinate(m);
   py::class_<Mimic>(m, "Mimic", docs::mimic)
       .def(py::init([](const std::string& joint, double multiplier, double offset) {
              return Mimic{joint, multiplier, offset};
@@ -31,7 +66,12 @@ void bind_links(py::module_& m) {
       .def_readonly("joint", &Mimic::joint)
       .def_readonly("multiplier", &Mimic::multiplier)
       .def_readonly("offset", &Mimic::offset, "[rad | m]")
-      .def("__repr__", [](const Mimic& mimic) { return "Mimic('" + mimic.joint + "')"; })
+      .def("__repr__",
+           [](const Mimic& mimic) {
+             return "Mimic(" + in_quotes(mimic.joint) +
+                    ", multiplier=" + printed("%g", mimic.multiplier) +
+                    ", offset=" + printed("%g", mimic.offset) + ")";
+           })
       .def(pickle_fields<Mimic, &Mimic::joint, &Mimic::multiplier, &Mimic::offset>());
   py::class_<Link>(m, "Link", link_doc)
       .def_readonly("name", &Link::name)

@@ -5,6 +5,7 @@
 #include "model_docs.hpp"
 #include "pickle.hpp"
 #include "saltus/model/model_builder.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -31,7 +32,7 @@ void bind_state(py::module_& m) {
       .def("__copy__", [](const State& s) { return s; })
       .def(
           "__deepcopy__", [](const State& s, const py::object&) { return s; }, py::arg("memo"))
-      .def("__repr__", &show_state)
+      .def("__repr__", [](const State& s) { return without_tails(show_state(s)); })
       .def(py::pickle([](const State& s) -> py::tuple { return py::make_tuple(s.t, s.q, s.p); },
                       [](const py::tuple& t) {
                         return State{t[0].cast<double>(), t[1].cast<VecX>(), t[2].cast<VecX>()};
@@ -49,22 +50,6 @@ void bind_parts(py::module_& m) {
       .value("floating", JointType::floating)
       .value("spherical", JointType::spherical)
       .finalize();
-  py::class_<Coordinate>(m, "Coordinate", docs::coordinate)
-      .def_readonly("name", &Coordinate::name, "the joint's, `<joint>_x` ... where it has several")
-      .def_readonly("joint", &Coordinate::joint, "name of the joint that it belongs to")
-      .def_property_readonly(
-          "unit",
-          [](const Coordinate& c) {
-            return c.unit == Unit::metre ? "m" : c.unit == Unit::radian ? "rad" : "1";
-          },
-          "\"m\", \"rad\", or \"1\" of a quaternion's numbers")
-      .def_readonly("lower", &Coordinate::lower, "[rad | m] limit, -inf where there is none")
-      .def_readonly("upper", &Coordinate::upper, "[rad | m] limit, inf where there is none")
-      .def_readonly("velocity", &Coordinate::velocity, "[rad/s | m/s] limit, inf where none")
-      .def_readonly("effort", &Coordinate::effort, "[N m | N] limit, inf where there is none")
-      .def_readonly("damping", &Coordinate::damping, "[N m s/rad | N s/m]")
-      .def_readonly("friction", &Coordinate::friction, "[N m | N]")
-      .def("__repr__", [](const Coordinate& c) { return "Coordinate('" + c.name + "')"; });
 }
 
 void bind_tree_solution(py::module_& m) {
@@ -116,7 +101,21 @@ std::vector<Pair> pairs(const Model& model) {
   return list;
 }
 
+void bind_words(py::class_<Model>& c) {
+  c.def("__repr__",
+        [](const Model& m) {
+          return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
+                 (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
+                 counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
+                 counted(m->pairs.size(), "pair") + ")";
+        })
+      .def("__str__", [](const py::object& self) { return in_words("models", "printed", self); })
+      .def("_repr_html_",
+           [](const py::object& self) { return in_words("models", "as_html", self); });
+}
+
 void bind_lists(py::class_<Model>& c) {
+  bind_words(c);
   c.def_property_readonly("name", [](const Model& m) { return m->name; })
       .def_property_readonly("n_q", &Model::n_q, "numbers in q: a ball joint has four")
       .def_property_readonly("n_v", &Model::n_v, "numbers in v and p: a ball joint has three")
@@ -167,13 +166,7 @@ void bind_lists(py::class_<Model>& c) {
           "joint", [](const Model& m, const std::string& name) { return m->joints[m.joint(name)]; },
           py::arg("name"), "The JointInfo of this name; ModelError with the names there are.")
       .def("without_collisions", &Model::without_collisions,
-           "A copy without any pair: bodies pass through each other.")
-      .def("__repr__", [](const Model& m) {
-        return "Model('" + m->name + "', " + counted(m.n_q(), "coordinate") + ", " +
-               (m.n_v() == m.n_q() ? "" : counted(m.n_v(), "velocity") + ", ") +
-               counted(static_cast<long>(m->shapes.size()), "shape") + ", " +
-               counted(m->pairs.size(), "pair") + ")";
-      });
+           "A copy without any pair: bodies pass through each other.");
 }
 
 constexpr auto contact_properties_doc = R"(What happens where two materials meet.

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "named_report.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -118,6 +119,19 @@ MatX to_rows(const std::optional<MatX>& given, Eigen::Index impulses, double unk
                    counted(impulses, "impulse") + ", three numbers each");
 }
 
+/// Longer cascades are counted.
+std::string show_impact(const py::object& impact) {
+  constexpr std::size_t most_impulses = 8;
+  const auto& self = impact.cast<const NamedImpact&>();
+  if (self.pairs.size() > most_impulses) {
+    return "<saltus.Impact: t = " + printed("%g", self.t) + " s, " +
+           in_words("impacts", "count_line", impact).cast<std::string>() + ">";
+  }
+  return "Impact(t=" + py::repr(py::float_(self.t)).cast<std::string>() +
+         ", pairs=" + py::repr(py::cast(self.pairs)).cast<std::string>() +
+         ", lambdas=" + py::str(py::cast(self.lambdas).attr("tolist")()).cast<std::string>() + ")";
+}
+
 void bind_impact(py::module_& m) {
   using I = NamedImpact;
   py::class_<I>(m, "Impact", impact_doc)
@@ -152,12 +166,10 @@ void bind_impact(py::module_& m) {
       .def_readonly("law", &I::law)
       .def_readonly("fallback", &I::fallback)
       .def_readonly("certificate", &I::certificate)
-      .def("__repr__", [](const I& self) {
-        return "Impact(t=" + py::repr(py::float_(self.t)).cast<std::string>() +
-               ", pairs=" + py::repr(py::cast(self.pairs)).cast<std::string>() +
-               ", lambdas=" + py::str(py::cast(self.lambdas).attr("tolist")()).cast<std::string>() +
-               ")";
-      });
+      .def("__repr__", &show_impact)
+      .def("__str__", [](const py::object& self) { return in_words("impacts", "printed", self); })
+      .def("_repr_html_",
+           [](const py::object& self) { return in_words("impacts", "as_html", self); });
 }
 
 void bind_contact(py::module_& m) {

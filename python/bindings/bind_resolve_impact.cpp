@@ -3,6 +3,7 @@
 #include "saltus/variational/cascade.hpp"
 #include "saltus/variational/friction.hpp"
 #include "structured.hpp"
+#include "words.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -131,7 +132,8 @@ void bind_resolve_impact(py::module_& m) {
             return view(self.cast<const ImpactOutcome&>().impulses, self);
           },
           "structured array: \"pair\" (row of N), \"lambda\" [N s]")
-      .def("__repr__", [](const ImpactOutcome& o) { return show("ImpactOutcome", o); });
+      .def("__repr__",
+           [](const ImpactOutcome& o) { return without_tails(show("ImpactOutcome", o)); });
   bind_friction_outcome(m);
   const CascadeOptions o;
   m.def("resolve_impact", &resolve, resolve_impact_doc, py::arg("M"), py::arg("N"), py::arg("v"),

@@ -52,11 +52,13 @@ Numbers to_numbers(const py::object& x) {
 void check_columns(const Numbers& x, const Model& model) {
   const auto names = actuator_names(model);
   const auto n = static_cast<py::ssize_t>(names.size());
-  const bool fits = x.ndim() > 0 && x.ndim() <= 2 && x.shape(x.ndim() - 1) == n;
+  const bool fits = x.ndim() > 0 && x.ndim() <= 2 && x.shape(x.ndim() - 1) == n &&
+                    (x.ndim() == 1 || x.shape(0) > 0);
   if (fits) return;
-  throw ModelError("control has shape " + py::repr(x.attr("shape")).cast<std::string>() +
-                   "; it has one number for each of the " + std::to_string(n) +
-                   " actuators (a row a step where it has two dimensions): " + list_names(names));
+  throw ModelError(
+      "control has shape " + py::repr(x.attr("shape")).cast<std::string>() +
+      "; it has one number for each of the " + std::to_string(n) +
+      " actuators (a row a step, one at least, where it has two dimensions): " + list_names(names));
 }
 
 void check_finite(const VecX& u, const Model& model) {

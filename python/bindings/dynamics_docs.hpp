@@ -80,6 +80,8 @@ v : array_like, shape (n_v,), or mapping of names to values
     [rad/s | m/s]
 a : array_like, shape (n_v,), or mapping of names to values
     [rad/s^2 | m/s^2]
+t : float
+    [s] of prescribed motions.
 
 Returns
 -------
@@ -94,6 +96,8 @@ v : array_like, shape (n_v,), or mapping of names to values
     [rad/s | m/s]
 forces : array_like, shape (n_v,), or mapping of names to values, optional
     [N m | N]
+t : float
+    [s] of prescribed motions.
 
 Returns
 -------
@@ -150,8 +154,10 @@ ModelError
 constexpr auto model_accelerations = R"(Accelerations: forward dynamics.
 
 Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of springs and potentials, c the forces
-of motion alone. Contacts, limits, damping, friction, motors and forces that are functions do not
-act. O(n) for deep trees.
+of motion alone. Loops and couplings are kept closed and prescribed joints move as they are told:
+the right side has A lambda besides, A the gradients of the loops, so that A^T a is what that takes.
+Contacts, limits, damping, friction, motors and forces that are functions do not act. O(n) for deep
+trees, and one solve more for each row of a loop.
 
 Parameters
 ----------
@@ -161,6 +167,8 @@ v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
     [rad/s | m/s] None: at rest.
 forces : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values, optional
     [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+t : float
+    [s] of prescribed motions.
 
 Returns
 -------
@@ -170,15 +178,21 @@ numpy.ndarray, shape (n_v,) or (rows, n_v)
 Raises
 ------
 ModelError
-    On an unknown name, a wrong shape, or a value that is not finite.
+    On an unknown name, a wrong shape, or a value that is not finite; where a loop is open at q, or
+    opens with v; where a joint moves by a function that does not say the acceleration.
 StepError
-    Where the mass matrix is singular.
+    Where the mass matrix is singular, or loops hold no single motion.
 )";
 
 constexpr auto model_inverse_dynamics = R"(Forces that make given accelerations: inverse dynamics.
 
 M(q) a + c(q, v) - gravity_forces(q) less those of springs and potentials, by the recursion of
 Newton and Euler, O(n). At rest and without acceleration they are what holds the model up.
+
+Where there are loops, many forces make these accelerations, and the loops take what they differ by.
+Those that are returned are what loops do not take: M times accelerations that keep the loops
+closed. Of prescribed joints they are 0, as what moves these has the rest. `accelerations` makes of
+them the a that was given.
 
 Parameters
 ----------
@@ -188,6 +202,8 @@ v : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
     [rad/s | m/s] None: at rest.
 a : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
     [rad/s^2 | m/s^2] the rates of v. None: none.
+t : float
+    [s] of prescribed motions.
 
 Returns
 -------
@@ -197,7 +213,8 @@ numpy.ndarray, shape (n_v,) or (rows, n_v)
 Raises
 ------
 ModelError
-    On an unknown name, a wrong shape, or a value that is not finite.
+    On an unknown name, a wrong shape, or a value that is not finite; where a loop is open at q, or
+    opens with v or a; where a joint moves by a function that does not say the acceleration.
 )";
 
 constexpr auto model_gravity_forces = R"(What gravity does to the coordinates.

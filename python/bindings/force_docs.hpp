@@ -1,6 +1,8 @@
 // Documentation of forces and actuators.
 #pragma once
 
+#include "doc_phrases.hpp"
+
 namespace saltus::bindings::docs {
 
 constexpr auto joint_effects =
@@ -34,19 +36,12 @@ constexpr auto add_motor = R"(Adds a motor; the control is its torque [N m], or 
 
 Parameters
 ----------
-name : str
-joint : str
-    Of one coordinate.
-gear : float
+)" SALTUS_NAME_AND_JOINT R"(gear : float
     The joint gets `gear` times the motor's torque.
 effort : float
     Of the motor at most; it is also the range of the control.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -62,21 +57,14 @@ kd h up to 1e12 times what they move.
 
 Parameters
 ----------
-name : str
-joint : str
-    Of one coordinate.
-kp : float
+)" SALTUS_NAME_AND_JOINT R"(kp : float
     [N m/rad | N/m]
 kd : float
     [N m s/rad | N s/m]
 effort : float
     [N m | N] at most.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -88,19 +76,12 @@ constexpr auto add_velocity_servo =
 
 Parameters
 ----------
-name : str
-joint : str
-    Of one coordinate.
-kv : float
+)" SALTUS_NAME_AND_JOINT R"(kv : float
     [N m s/rad | N s/m]
 effort : float
     [N m | N] at most.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -125,11 +106,7 @@ effort : float
 control : (float, float), optional
     Range of the control; beyond it the nearest value acts.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -146,11 +123,7 @@ lower, upper : float
 restitution : float
     At the stops, in [0, 1].
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -166,11 +139,7 @@ effects : JointEffects or str
 joint : str, optional
     None: all joints that there are now.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-)";
+)" SALTUS_RETURNS_BUILDER R"()";
 
 constexpr auto stiff_joints = R"(Joints whose damping stops them within a step.
 

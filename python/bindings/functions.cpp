@@ -91,11 +91,13 @@ std::function<PrescribedMotion(double)> to_motion(const std::string& joint,
     const py::gil_scoped_acquire acquire;
     const VecX x = to_vector((*shared)(t), "prescribed motion", joint, "its value and rate");
     if (x.size() == 2 && x.allFinite()) return PrescribedMotion{x[0], x[1]};
+    if (x.size() == 3 && x.allFinite()) return PrescribedMotion{x[0], x[1], x[2]};
     std::ostringstream given;
     given << x.transpose();
     throw ModelError("the prescribed motion of joint \"" + joint + "\" returned (" + given.str() +
                          ") at t = " + std::to_string(t) +
-                         " s; it returns two finite numbers, the displacement and its rate",
+                         " s; it returns finite numbers, the displacement, its rate and, for "
+                         "accelerations, the rate of that",
                      "joint", joint);
   };
 }

@@ -14,7 +14,7 @@ struct PythonMoment {
 /// A function(now) that returns Q, or (Q, Q_q, Q_v).
 ForceFunction to_force_function(const std::string& name, const py::object& function);
 
-/// A function(t) that returns the displacement of a joint and its rate.
+/// A function(t) that returns the displacement of a joint, its rate and perhaps the rate of that.
 std::function<PrescribedMotion(double)> to_motion(const std::string& joint,
                                                   const py::object& function);
 

@@ -82,8 +82,9 @@ joint : str
 times, values : array_like, shape (k,), optional
     [s] ascending, [rad | m]; k is 2 at least.
 function : callable, optional
-    function(t) returns the displacement [rad | m] and its rate. A model that has one cannot be
-    pickled, and files do not hold it.
+    function(t) returns the displacement [rad | m] and its rate, or the acceleration as well, which
+    `accelerations` and `inverse_dynamics` ask for. A model that has one cannot be pickled, and files
+    do not hold it.
 
 Returns
 -------

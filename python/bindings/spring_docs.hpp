@@ -1,6 +1,8 @@
 // Documentation of springs, compensation of gravity, and functions.
 #pragma once
 
+#include "doc_phrases.hpp"
+
 namespace saltus::bindings::docs {
 
 constexpr auto add_spring = R"(Adds a spring and a damper side by side between two points.
@@ -23,11 +25,7 @@ length : float
 damping : float
     [N s/m] at least 0.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -53,11 +51,7 @@ curve : tuple of two array_like, shape (k,), optional
 slopes : tuple of two floats, optional
     [N m/rad | N/m] of the curve at its ends. Without them the ends are natural: not bent.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -76,11 +70,7 @@ link : str
 part : float
     1 is all of it, 0 nothing.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
@@ -106,16 +96,13 @@ coordinates : sequence of str, optional
     Names of the velocities that it pushes, of a joint of one coordinate the joint's; all by
     default.
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
     On a name that is taken; `build` on coordinates that do not exist. Steps where the function
-    returns something else, or numbers that are not finite.
+    returns something else, or numbers that are not finite, and the first one of a model where Q_q
+    or Q_v is not the derivative (`check_derivatives` looks at more places).
 )";
 
 constexpr auto add_potential = R"(Adds a potential V(q), by three functions of q.
@@ -134,16 +121,13 @@ gradient : callable
 hessian : callable
     q to the derivatives of the gradient along velocities, shape (n_v, n_v).
 
-Returns
--------
-ModelBuilder
-    The builder itself.
-
+)" SALTUS_RETURNS_BUILDER R"(
 Raises
 ------
 ModelError
     On a name that is taken. Whatever asks for the potential, where a function returns another
-    shape, or numbers that are not finite.
+    shape, or numbers that are not finite; the first step of a model, and `equilibrium`, where
+    gradient or Hessian is not the derivative (`check_derivatives` looks at more places).
 )";
 
 constexpr auto force_moment = R"(When and where a force is asked for: the middle of an arc.

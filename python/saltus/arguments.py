@@ -19,6 +19,7 @@ from saltus import _core
 LONGEST = 60  # letters of a value that are shown
 
 NUMERIC = ("typing.SupportsFloat", "typing.SupportsInt")
+FIXED = re.compile(r'"FixedSize\((\d+)\)"')
 NUMBERS = {"SupportsFloat": "number", "SupportsInt": "whole number"}
 
 
@@ -124,8 +125,7 @@ def _complaint(
     if missing:
         return f"lacks {', '.join(missing)}; arguments are {names}"
     for name, value in values.items():
-        wrong = _misfit(name, value, known[name].annotation)
-        if wrong:
+        if wrong := _misfit(name, value, known[name].annotation):
             return f"is given {wrong}"
     shown = ", ".join(f"{name} = {_show(value)}" for name, value in values.items())
     return f"cannot use {shown or 'no arguments'}; arguments are {names}"
@@ -190,17 +190,15 @@ def _misfit(name: str, value: object, annotation: str) -> str:
     start = f"{name} = {_show(value)} ({type(value).__name__})"
     words = dict.fromkeys(word for kind in kinds if (word := _in_words(kind)))
     text = f"{start}, which is no {' or '.join(words)}"
-    if len(kinds) == 1 and kinds[0].startswith("typing.Annotated"):
-        array = _array(value)
-        if array is not None:
-            return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
+    is_array = len(kinds) == 1 and kinds[0].startswith("typing.Annotated[numpy")
+    if is_array and (array := _array(value)) is not None:
+        return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
     return text
 
 
 def _fits(value: object, kind: str) -> bool:
     """Return whether pybind11 may take a value; kinds that are not known here may fit."""
-    test = TESTS.get(kind)
-    if test is not None:
+    if test := TESTS.get(kind):
         return test(value)
     if kind.startswith("saltus._core."):
         return isinstance(value, _class(kind))
@@ -208,10 +206,14 @@ def _fits(value: object, kind: str) -> bool:
         return callable(value)
     if kind.startswith("collections.abc.Sequence["):
         inside = kind.partition("[")[2][:-1]
-        return isinstance(value, Iterable) and all(_fits(each, inside) for each in value)
+        if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+            return False  # one name is no list of letters
+        return all(_fits(each, inside) for each in value)
     if kind.startswith("typing.Annotated"):
-        array = _array(value)
-        return array is not None and _has_shape(array, _dimensions(kind))
+        array, fixed = _array(value), FIXED.search(kind)
+        if array is None or not fixed:
+            return array is not None and _has_shape(array, _dimensions(kind))
+        return array.shape == (int(fixed[1]),)
     return True
 
 
@@ -246,6 +248,8 @@ TESTS: dict[str, Callable[[object], bool]] = {
 
 
 def _in_words(kind: str) -> str:
+    if fixed := FIXED.search(kind):
+        return f"sequence of {fixed[1]} numbers"
     if kind.startswith("typing.Annotated"):
         return f"array of numbers of shape {_shape(kind)}"
     if kind.startswith("collections.abc.Callable"):

@@ -98,6 +98,14 @@ JOINT = {"name": "hinge", "parent": "world", "child": "arm"}
             ),
             "Impact() is given pairs = ['a', 1] (list), which is no sequence of str",
         ),
+        (
+            lambda: saltus.ModelBuilder().add_actuator("a", joints={"j": 1}, bias=(1, 2)),
+            "add_actuator() is given bias = (1, 2) (tuple), which is no sequence of 3 numbers",
+        ),
+        (
+            lambda: saltus.close_loops(cradle(), keep="swing_0"),
+            "close_loops() is given keep = 'swing_0' (str), which is no sequence of str",
+        ),
     ],
 )
 def test_a_value_of_a_wrong_type(call, message):

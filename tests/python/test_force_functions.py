@@ -74,9 +74,97 @@ def test_an_exception_comes_through_and_leaves_the_state() -> None:
     calm[0] = True
     expected = saltus.Stepper(model, h=H).advance(state)
     np.testing.assert_allclose(stepper.advance(state).q, expected.q, atol=1e-15)
-    calm[0] = False
-    with pytest.raises(Storm):
-        saltus.simulate_batch(model, q=np.zeros((3, 2)), duration=0.1, h=H)
+
+
+def test_an_exception_ends_its_own_run_of_a_batch() -> None:
+    def wind(now: saltus.ForceMoment) -> np.ndarray:
+        if now.q[0] > 1.0:
+            raise Storm(f"beyond at {now.q[0]:.2f}")
+        return 0 * now.v
+
+    model = damped_by(wind)
+    q = np.array([[0.1, 0.2], [1.5, 0.0], [0.3, 0.2]])
+    with pytest.warns(RuntimeWarning, match="1 of 3 runs failed, see failures; run 1: .*beyond"):
+        batch = saltus.simulate_batch(model, q, duration=0.1, h=H)
+    assert list(batch.complete) == [True, False, True]
+    assert "Storm: beyond at 1.5" in batch.failures[1]
+    for k in (0, 2):
+        alone = saltus.simulate(model, q=q[k], duration=0.1, h=H)
+        np.testing.assert_array_equal(batch[k].q, alone.q)
+    with pytest.raises(Storm, match="beyond") as caught:
+        saltus.simulate_batch(model, q, duration=0.1, h=H, on_failure="stop")
+    assert len(caught.value.trajectory) == 1
+
+
+WRONG = {
+    "Q_v": (lambda now: (-0.2 * now.v, None, 0.2 * np.eye(2)), r"Q_v\[0, 0\] is 0\.2, .* -0\.2"),
+    "Q_q": (
+        lambda now: (np.sin(now.q), np.diag(np.sin(now.q)), None),
+        r"Q_q\[0, 0\] is .*, and differences say",
+    ),
+    "Q_q of another": (
+        lambda now: ([now.q[1], 0], [[0, 0], [0, 0]], None),
+        r"Q_q\[0, 1\] is 0, and differences say 1",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_derivative_is_named_at_the_first_use(name: str) -> None:
+    function, message = WRONG[name]
+    model = damped_by(function)
+    for _ in range(2):  # each time
+        with pytest.raises(ModelError, match='force "wind": ' + message):
+            saltus.Stepper(model, h=H).advance(model.state())
+    with pytest.raises(ModelError, match=message):
+        saltus.simulate_batch(model, np.zeros((2, 2)), duration=0.1, h=H)
+
+
+@pytest.mark.parametrize("which", ["gradient", "hessian"])
+def test_a_wrong_derivative_of_a_potential_is_named_at_the_first_use(which: str) -> None:
+    parts = well()
+    right = parts[which]
+    parts[which] = lambda q: 1.1 * np.array(right(q))
+    model = arm().add_potential("well", **parts).build()
+    words = "gradient" if which == "gradient" else "Hessian"
+    with pytest.raises(ModelError, match=f'potential "well": {words}.*, and differences say'):
+        saltus.simulate(model, q=[0.1, 0.4], duration=0.1)
+    with pytest.raises(ModelError, match=f'potential "well": {words}'):
+        saltus.equilibrium(model, q=[0.1, 0.4])
+
+
+def test_kinks_and_what_a_function_refuses_are_no_wrong_derivatives() -> None:
+    """Starts on a kink, at the border of where the function is, and with a jump nearby."""
+
+    def stop(now: saltus.ForceMoment) -> tuple:
+        deep = np.minimum(now.q, 0.0)
+        return -50 * deep, -50 * np.diag((now.q < 0).astype(float)), None
+
+    def roots(now: saltus.ForceMoment) -> tuple:
+        if now.q[0] < 0.5:
+            raise Storm("no root")
+        return [math.sqrt(now.q[0] - 0.5), 0], [[0.5 / math.sqrt(now.q[0] - 0.5), 0], [0, 0]], None
+
+    def dry(now: saltus.ForceMoment) -> tuple:
+        return -0.1 * np.sign(now.v), None, np.zeros((2, 2))
+
+    for function, q in ((stop, [0.0, 0.0]), (roots, [0.5, 0.0]), (dry, [0.0, 0.0])):
+        model = damped_by(function)
+        saltus.Stepper(model, h=1e-4).advance(model.state(q, [1.0, 1.0]))
+
+
+def test_a_look_at_derivatives_is_taken_once() -> None:
+    calls = []
+
+    def wind(now: saltus.ForceMoment) -> tuple:
+        calls.append(now.t)
+        return -0.2 * now.v, None, -0.2 * np.eye(2)
+
+    model = damped_by(wind)
+    saltus.simulate(model, duration=0.01, h=H)
+    first = len(calls)
+    saltus.simulate(model, duration=0.01, h=H)
+    assert len(calls) - first < first / 2
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,21 @@ def test_a_limit_without_rebound_holds_to_the_last_bit() -> None:
     assert np.diff(run.total).max() < 1e-5 * run.kinetic.max()  # the midpoint rule's own swing
 
 
+@pytest.mark.parametrize("g", [9.81, 1e-2, 1e-5, 1e-6, 1e-8, 1e-10])
+@pytest.mark.parametrize("bound", [0.0, 3.0])
+def test_a_joint_does_not_creep_through_its_limit(g: float, bound: float) -> None:
+    """However little presses it: an arc that would sink by less than touches was left free."""
+    builder = ModelBuilder("rod").set_gravity((0, -g * math.cos(bound), 0) if bound else (0, -g, 0))
+    builder.add_link("rod", BodyInertia(1, (0.5, 0, 0), np.diag([0.001, 1 / 12, 1 / 12])))
+    builder.add_joint("hinge", "revolute", parent="world", child="rod", axis=(0, 0, 1))
+    model = builder.set_limit("hinge", bound, 5.0).build()
+    run = saltus.simulate(model, q=[bound], duration=5.0, h=H)
+    moved = run.q[:, 0] - bound
+    assert moved.min() > -1e-12 * max(1.0, bound)
+    if bound == 0.0:  # it is pressed all the time
+        assert moved.max() < 1e-12
+
+
 def test_limits_let_go() -> None:
     """A pendulum that a motor lifts off its limit moves as a free one."""
     builder = pendulum().set_limit("swing", 0.3, math.inf).add_motor("m", joint="swing")

@@ -228,3 +228,19 @@ def test_a_linkage_has_the_same_bits_alone_and_in_company() -> None:
         runs.append(saltus.simulate(model, state=state, duration=0.3, h=0.01, progress=False))
     assert len(runs[0].impacts) == 0  # until then arcs are the same
     np.testing.assert_allclose(runs[1].q[:, :2], runs[0].q, rtol=0, atol=1e-13)
+
+
+def test_a_policy_drives_a_linkage() -> None:
+    """Before the first step its report has loops that pushed nothing."""
+    model = four_bar().add_motor("m", joint="joint_0").build()
+    seen = []
+
+    def policy(now: saltus.Moment) -> list[float]:
+        seen.append(now.report.loops["pin"])
+        return [1.0 + math.sin(now.t)]
+
+    state = saltus.close_loops(model, [1.0, -0.5, -2.0])
+    run = saltus.simulate(model, state=state, duration=0.1, h=0.01, control=policy)
+    assert run.complete
+    np.testing.assert_array_equal(seen[0], np.zeros(3))
+    assert np.abs(seen[1]).max() > 0

@@ -232,6 +232,29 @@ def test_other_wrong_springs_are_named() -> None:
         arm().set_gravity_compensation("lower", math.nan)
 
 
+HUGE = [
+    lambda b: b.add_spring("s", a="lower", b="world", stiffness=1e300),
+    lambda b: b.add_spring("s", a="lower", b="world", stiffness=1, length=1e200),
+    lambda b: b.add_joint_spring("elbow", stiffness=1e300),
+    lambda b: b.add_joint_spring("elbow", stiffness=1, rest=-1e300),
+    lambda b: b.add_joint_spring("elbow", curve=([0, 1], [0, 1e300])),
+    lambda b: b.add_joint_spring("elbow", curve=([0, 1], [0, 1]), slopes=(0, -1e300)),
+    lambda b: b.set_damping("elbow", 1e300),
+    lambda b: b.set_friction("elbow", 1e300),
+    lambda b: b.set_armature("elbow", 1e300),
+    lambda b: b.set_gravity_compensation("lower", 1e300),
+    lambda b: b.add_motor("m", joint="elbow", gear=1e300),
+    lambda b: b.add_position_servo("m", joint="elbow", kp=1e300),
+    lambda b: b.add_velocity_servo("m", joint="elbow", kv=1e300),
+]
+
+
+@pytest.mark.parametrize("verb", HUGE)
+def test_numbers_that_leave_arithmetic_no_room_are_named(verb) -> None:
+    with pytest.raises(ModelError, match=r"(s|m|elbow|lower)\" .*e\+.*and at most 1e\+100"):
+        verb(arm())
+
+
 def test_springs_hold_where_a_body_rests_and_hits() -> None:
     """A ball on a bungee over a floor: impacts and rest, with forces that depend on q."""
     builder = ModelBuilder("bungee").add_floor(restitution=0.5, friction=0.4)

@@ -137,6 +137,17 @@ EqualityValues::EqualityValues(int n_v, int rows) {
   A.setZero(n_v, rows);
 }
 
+VecX locks_of(const Tree& tree, const EqualityModel& model) {
+  VecX out;
+  for (const Equality& e : model.all) {
+    if (e.type != LoopType::prescribed) continue;
+    if (out.size() == 0) out.setZero(tree.n_v);
+    const Drive& drive = tree.drive[e.a.joint];
+    out[drive.velocity] += drive.multiplier * drive.multiplier * e.lock;
+  }
+  return out;
+}
+
 std::vector<int> joints_read(const Tree& tree, const EqualityModel& model) {
   std::set<int> found;
   for (const Equality& e : model.all) {

@@ -21,6 +21,9 @@ void Assembly::check() {
   add_springs();
   add_compensations();
   add_functions();
+  if (!m_.forces.functions.empty() || !m_.mass.potentials.functions.empty()) {
+    m_.has_checked_functions = std::make_shared<std::atomic<bool>>(false);
+  }
   m_.packed = pack(m_.tree, m_.mass, d_.solver);
   const int joining = m_.packed.columns + m_.forces.n_columns();
   m_.packed.dense_arcs = joining > 0 && 3 * (joining + m_.forces.n_coupled()) > m_.tree.n_v;

@@ -53,7 +53,13 @@ void for_each_row(const Model& model, const RowsRef& q, Eigen::Index rows, const
     if (row == 0 || q.rows() > 1) {
       frames.set(row_of(q, row), "row " + std::to_string(row) + " of q");
     }
-    f(row, frames);
+    try {
+      f(row, frames);
+    } catch (const ModelError& error) {  // of its loops
+      if (rows == 1) throw;
+      throw ModelError("row " + std::to_string(row) + ": " + error.what(), error.element,
+                       error.name);
+    }
   }
 }
 
@@ -130,25 +136,27 @@ MatX gravity_forces(const Model& model, const RowsRef& q) {
   return out;
 }
 
-MatX inverse_dynamics(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& a) {
+MatX inverse_dynamics(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& a,
+                      double t) {
   const Eigen::Index rows =
       count_rows({coordinates(model, q), velocities(model, v, "v"), velocities(model, a, "a")});
   MatX out(rows, model.n_v());
   VecX forces;
   for_each_row(model, q, rows, [&](Eigen::Index row, Frames& frames) {
-    frames.inverse_dynamics(row_of(v, row), row_of(a, row), forces);
+    frames.inverse_dynamics(row_of(v, row), row_of(a, row), forces, t);
     out.row(row) = forces.transpose();
   });
   return out;
 }
 
-MatX accelerations(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& forces) {
+MatX accelerations(const Model& model, const RowsRef& q, const RowsRef& v, const RowsRef& forces,
+                   double t) {
   const Eigen::Index rows = count_rows(
       {coordinates(model, q), velocities(model, v, "v"), velocities(model, forces, "forces")});
   MatX out(rows, model.n_v());
   VecX a;
   for_each_row(model, q, rows, [&](Eigen::Index row, Frames& frames) {
-    frames.accelerations(row_of(v, row), row_of(forces, row), a);
+    frames.accelerations(row_of(v, row), row_of(forces, row), a, t);
     out.row(row) = a.transpose();
   });
   return out;

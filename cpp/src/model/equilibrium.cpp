@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "saltus/model/check_derivatives.hpp"
 #include "saltus/model/close_loops.hpp"
 #include "saltus/tree/coordinates.hpp"
 
@@ -142,6 +143,7 @@ VecX equilibrium(const Model& model, const VecRef& start, const VecX& control,
                  const std::vector<int>& keep) {
   if (control.size() > 0) check_vector(control, model->forces.n_u(), "control", "actuators");
   VecX q = close_loops(model, start, keep);
+  check_derivatives_once(model, q, 0);
   for (int k = 0; k < most_iterations; ++k) {
     const MatX A = loop_values(*model, q).A;
     Pull pull = pull_at(model, q, control);

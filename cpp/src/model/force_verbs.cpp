@@ -21,11 +21,24 @@ std::string show(double x) {
 }
 
 void check_not_negative(const JointSpec& joint, double number, const std::string& what) {
-  if (std::isfinite(number) && number >= 0) return;
-  fail("joint", joint.name, "has " + what + " " + show(number) + "; it is finite and at least 0");
+  if (is_force_number(number, false)) return;
+  fail("joint", joint.name, "has " + what + " " + refused_number(number, false));
 }
 
 }  // namespace
+
+bool is_force_number(double number, bool may_be_negative) {
+  return std::abs(number) <= most_number && (may_be_negative || number >= 0);
+}
+
+std::string refused_number(double number, bool may_be_negative) {
+  std::string text = show(number) + "; it is finite";
+  if (!may_be_negative) text += " and at least 0";
+  if (std::isfinite(number) && std::abs(number) > most_number) {
+    text += ", and at most " + show(most_number) + ", beyond which arithmetic ends";
+  }
+  return text;
+}
 
 void check_forces(const JointSpec& joint) {
   // friction and damping that are nothing but information may be what they are
@@ -33,8 +46,9 @@ void check_forces(const JointSpec& joint) {
     check_not_negative(joint, joint.damping, "damping");
     check_not_negative(joint, joint.armature, "armature");
     check_not_negative(joint, joint.stiffness, "stiffness");
-    if (!std::isfinite(joint.rest))
-      fail("joint", joint.name, "has a spring's rest that is not finite");
+    if (!is_force_number(joint.rest, true)) {
+      fail("joint", joint.name, "has a spring's rest at " + refused_number(joint.rest, true));
+    }
     check_curve(joint);
   }
   if (has(joint.effects, JointEffects::friction)) {
@@ -64,12 +78,13 @@ void check_actuator(const ActuatorSpec& a) {
   }
   if (a.joints.empty()) fail("actuator", a.name, "moves no joint");
   for (const double number : {a.gain, a.bias, a.bias_l, a.bias_v}) {
-    if (!std::isfinite(number)) fail("actuator", a.name, "has a gain or bias that is not finite");
+    if (is_force_number(number, true)) continue;
+    fail("actuator", a.name, "has a gain or bias of " + refused_number(number, true));
   }
   for (const auto& [joint, ratio] : a.joints) {
-    if (!std::isfinite(ratio)) {
-      fail("actuator", a.name, "moves joint " + quoted(joint) + " with a ratio that is not finite");
-    }
+    if (is_force_number(ratio, true)) continue;
+    fail("actuator", a.name,
+         "moves joint " + quoted(joint) + " with a ratio of " + refused_number(ratio, true));
   }
   if (!(a.effort > 0)) {
     fail("actuator", a.name, "has effort " + show(a.effort) + "; it is positive, or infinite");

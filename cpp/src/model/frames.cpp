@@ -20,6 +20,7 @@ Frames::Frames(const Model& model) : Frames(model, model.neutral()) {}
 
 Frames::Frames(const Model& model, const VecRef& q)
     : model_(model), w_(model->packed), forces_(model->packed), zero_(VecX::Zero(model.n_v())) {
+  if (model->equalities.rows > 0) loops_.emplace(*model);
   set(q);
 }
 
@@ -184,9 +185,7 @@ void Frames::move(const VecRef& v) {
   saltus::move(model_->packed, w_);
 }
 
-void Frames::inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out) {
-  check_vector(v, model_.n_v(), "v", "velocities");
-  check_vector(a, model_.n_v(), "a", "velocities");
+void Frames::set_tree_forces(const VecRef& v, const VecRef& a, VecX& out) {
   move(v);
   set_accelerations(model_->tree, model_->packed, a, forces_);
   newton_euler(model_->packed, w_, forces_);
@@ -194,16 +193,43 @@ void Frames::inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out) {
   gather(model_->tree, model_->packed, forces_.tau, 0, out);
 }
 
-void Frames::accelerations(const VecRef& v, const VecRef& forces, VecX& out) {
-  check_vector(forces, model_.n_v(), "forces", "velocities");
-  inverse_dynamics(v, zero_, out);
-  out = forces - out;
-  if (!M_) M_.emplace(model_->tree, model_->packed);
-  sum_masses();
-  if (!factorize(model_->tree, model_->packed, w_, 0, *M_)) {
-    throw StepError("the mass matrix is singular at this configuration", 0, 0, 0);
+void Frames::factorize_mass() {
+  if (!M_) {
+    M_.emplace(model_->tree, model_->packed);
+    M_->lock = locks_of(model_->tree, model_->equalities);
   }
+  sum_masses();
+  if (factorize(model_->tree, model_->packed, w_, 0, *M_)) return;
+  throw StepError("the mass matrix is singular at this configuration", 0, 0, 0);
+}
+
+void Frames::inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out, double t) {
+  check_vector(v, model_.n_v(), "v", "velocities");
+  check_vector(a, model_.n_v(), "a", "velocities");
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
+  if (loops_) {
+    set_loops(*model_, q_, v, t, *loops_);
+    check_accelerations(*model_, a, *loops_);
+  }
+  set_tree_forces(v, a, out);
+  if (!loops_) return;
+  factorize_mass();
+  factorize_loops(*model_, t, *M_, *loops_);
+  take_out_loops(*model_, *M_, *loops_, out);
+}
+
+void Frames::accelerations(const VecRef& v, const VecRef& forces, VecX& out, double t) {
+  check_vector(v, model_.n_v(), "v", "velocities");
+  check_vector(forces, model_.n_v(), "forces", "velocities");
+  if (!std::isfinite(t)) throw ModelError("t is not finite");
+  if (loops_) set_loops(*model_, q_, v, t, *loops_);
+  set_tree_forces(v, zero_, out);
+  out = forces - out;
+  factorize_mass();
   solve(model_->tree, model_->packed, *M_, out);
+  if (!loops_) return;
+  factorize_loops(*model_, t, *M_, *loops_);
+  hold_accelerations(*loops_, out);
 }
 
 Gaps Frames::gaps() {

@@ -95,6 +95,15 @@ void check_prescribed(const PrescribedSpec& spec) {
   }
 }
 
+/// Of masses and moments; 1 where there are none.
+double largest_inertia(const std::vector<Link>& links) {
+  double most = 0;
+  for (const Link& link : links) {
+    most = std::max({most, link.mass, link.inertia.I_J.cwiseAbs().maxCoeff()});
+  }
+  return most > 0 ? most : 1;
+}
+
 }  // namespace
 
 ModelBuilder& ModelBuilder::set_prescribed(const std::string& joint, std::vector<double> times,
@@ -151,15 +160,17 @@ void Assembly::add_loops() {
     tie.polynomial = coupling.polynomial;
     add(tie);
   }
+  const double lock = d_.prescribed.empty() ? 0 : largest_inertia(m_.links);
   for (const PrescribedSpec& spec : d_.prescribed) {
     Equality told{spec.joint + " prescribed",
                   LoopType::prescribed,
                   {moved_frame(spec.joint, "set_prescribed moves"), {}}};
+    told.lock = lock;
     told.motion = spec.function;
     if (!told.motion) {
       told.motion = [curve = make_curve(spec.times, spec.values)](double t) {
         const CurveValue at = curve(t);
-        return PrescribedMotion{at.f, at.slope};
+        return PrescribedMotion{at.f, at.slope, at.second};
       };
     }
     add(told);

@@ -42,9 +42,10 @@ void check_curve(const JointSpec& joint) {
            std::to_string(f.size()) + " forces; it has equally many, two at least");
   }
   for (std::size_t k = 0; k < x.size(); ++k) {
-    if (!std::isfinite(x[k]) || !std::isfinite(f[k])) {
+    for (const double number : {x[k], f[k]}) {
+      if (is_force_number(number, true)) continue;
       refuse("has a spring's curve with (" + show(x[k]) + ", " + show(f[k]) + ") at " +
-             std::to_string(k) + "; its numbers are finite");
+             std::to_string(k) + ", with " + refused_number(number, true));
     }
     if (k == 0 || x[k] > x[k - 1]) continue;
     refuse("has a spring's curve whose displacement " + show(x[k]) + " follows " + show(x[k - 1]) +
@@ -52,15 +53,15 @@ void check_curve(const JointSpec& joint) {
   }
   if (!joint.curve_slopes) return;
   for (const double slope : *joint.curve_slopes) {
-    if (!std::isfinite(slope)) refuse("has a spring's curve with end slope " + show(slope));
+    if (is_force_number(slope, true)) continue;
+    refuse("has a spring's curve with end slope " + refused_number(slope, true));
   }
 }
 
 void check_spring(const SpringSpec& spring) {
   const auto check = [&](double number, const char* what) {
-    if (std::isfinite(number) && number >= 0) return;
-    fail("spring", spring.name,
-         std::string("has ") + what + " " + show(number) + "; it is finite and at least 0");
+    if (is_force_number(number, false)) return;
+    fail("spring", spring.name, std::string("has ") + what + " " + refused_number(number, false));
   };
   check(spring.stiffness, "stiffness");
   check(spring.length, "length");
@@ -91,7 +92,8 @@ ModelBuilder& ModelBuilder::add_joint_spring(const std::string& name, std::vecto
   changed.curve_x = std::move(x);
   changed.curve_f = std::move(f);
   changed.curve_slopes = slopes;
-  if (changed.curve_x.empty()) fail("joint", name, "has a spring's curve of no points");
+  if (changed.curve_x.empty() && changed.curve_f.empty())
+    fail("joint", name, "has a spring's curve of no points");
   check_forces(changed);
   sprung = std::move(changed);
   return *this;
@@ -99,8 +101,8 @@ ModelBuilder& ModelBuilder::add_joint_spring(const std::string& name, std::vecto
 
 ModelBuilder& ModelBuilder::set_gravity_compensation(const std::string& name, double part) {
   LinkSpec& link = named(d_.links, "link", name, "links");
-  if (!std::isfinite(part)) {
-    fail("link", name, "has gravity compensation " + show(part) + ", which is not finite");
+  if (!is_force_number(part, true)) {
+    fail("link", name, "has gravity compensation " + refused_number(part, true));
   }
   link.compensation = part;
   return *this;

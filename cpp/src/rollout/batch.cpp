@@ -9,10 +9,12 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
 #include "rollout/batch_storage.hpp"
+#include "saltus/model/check_derivatives.hpp"
 
 namespace saltus {
 namespace {
@@ -130,10 +132,9 @@ void Crew::make_run(long i, Stepper& stepper, EnergyMeter& meter, Worker& me) {
     const Policy& policy =
         has_own ? options_.policies[static_cast<std::size_t>(i)] : options_.run.policy;
     run(out_.model, plan_, starts_[i], go_on, policy, stepper, meter, rows_of(out_, i), outcome);
-  } catch (const ModelError& error) {
-    outcome.failure = error.what();
-    fail_run(i);
-  } catch (const StepError& error) {
+  } catch (const std::bad_alloc&) {
+    throw;                                 // no run's own
+  } catch (const std::exception& error) {  // of ours, or of what a user's function threw
     outcome.failure = error.what();
     fail_run(i);
   }
@@ -207,6 +208,7 @@ void simulate_batch(const Model& model, std::span<const State> starts, double du
   }
   check_memory(model, plan, static_cast<Eigen::Index>(starts.size()));
   Stepper(model, plan.step);  // refuses its options here and not in a thread
+  if (!starts.empty()) check_derivatives_once(model, starts[0].q, starts[0].t);  // likewise
   out = empty_batch(model, plan, starts);
   Crew crew(plan, starts, options, out);
   crew.start(threads);

@@ -146,7 +146,9 @@ void run(const Model& model, const Plan& plan, const State& start, const GoOn& g
   measure(*model, state, plan.step.h, meter);
   record(state, meter, 0, rows);
   driven.record(0, rows);
-  const StepReport nothing;
+  StepReport nothing;  // of no step: with all that a report has room for
+  nothing.work.setZero(model->forces.n_u() + 3);
+  nothing.loops.setZero(model->equalities.rows);
   bool is_measured = true;
   long k = 0;
   for (; k < plan.steps && go_on(k); ++k) {

@@ -1,8 +1,10 @@
 #include "urdf/actuators.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "urdf/attributes.hpp"
 
@@ -78,6 +80,73 @@ void add_transmissions(const Document& document, ModelBuilder& builder) {
                       list_names(unused) + "; add_actuator of a ModelBuilder adds others");
 }
 
+namespace {
+
+/// Of stiffness and rest, or of a curve.
+void add_joint_spring(const Document& document, const XMLElement& e, const Owner& owner,
+                      ModelBuilder& builder) {
+  const bool has_curve = e.Attribute("angles") != nullptr || e.Attribute("forces") != nullptr;
+  if (e.Attribute("slopes") != nullptr && !has_curve) {
+    document.fail(e, owner, "has slopes, which are of a curve: angles and forces say it");
+  }
+  if (!has_curve) {
+    if (e.Attribute("stiffness") == nullptr) return;
+    builder.add_joint_spring(owner.name, number(e, "stiffness", 0), number(e, "rest", 0));
+    return;
+  }
+  if (e.Attribute("stiffness") != nullptr || e.Attribute("rest") != nullptr) {
+    document.fail(e, owner, "has a spring's curve, and a stiffness or rest besides");
+  }
+  std::optional<std::array<double, 2>> slopes;
+  const std::vector<double> ends = numbers(document, e, owner, "slopes");
+  if (!ends.empty()) slopes = {ends[0], ends[1]};
+  builder.add_joint_spring(owner.name, numbers(document, e, owner, "angles"),
+                           numbers(document, e, owner, "forces"), slopes);
+}
+
+void set_joint(const Document& document, const XMLElement& e, const Owner& owner,
+               ModelBuilder& builder) {
+  const std::string& name = owner.name;
+  if (e.Attribute("armature")) builder.set_armature(name, number(e, "armature", 0));
+  if (e.Attribute("damping")) builder.set_damping(name, number(e, "damping", 0));
+  if (e.Attribute("friction")) builder.set_friction(name, number(e, "friction", 0));
+  add_joint_spring(document, e, owner, builder);
+  if (e.Attribute("limit_restitution")) {
+    builder.set_limit_restitution(name, number(e, "limit_restitution", 0));
+  }
+}
+
+/// Affine in the sum of ratio times displacement over its joints.
+void add_any_actuator(const Document& document, const XMLElement& e, const Owner& owner,
+                      ModelBuilder& builder) {
+  ActuatorSpec spec{.name = owner.name, .gain = number(e, "gain", 1)};
+  const std::vector<double> ratios = numbers(document, e, owner, "ratios");
+  std::istringstream words(attribute(e, "joints"));
+  for (std::string joint; words >> joint;) {
+    const std::size_t k = spec.joints.size();
+    spec.joints.emplace_back(joint, k < ratios.size() ? ratios[k] : 1);
+  }
+  if (!ratios.empty() && ratios.size() != spec.joints.size()) {
+    document.fail(e, owner,
+                  "has " + std::to_string(ratios.size()) + " ratios for " +
+                      counted(static_cast<long>(spec.joints.size()), "joint") +
+                      "; they are equally many, or none where all are 1");
+  }
+  const Vec3 bias = vector(e, "bias", Vec3::Zero());
+  spec.bias = bias[0];
+  spec.bias_l = bias[1];
+  spec.bias_v = bias[2];
+  spec.effort = number(e, "effort", infinity);
+  const std::vector<double> control = numbers(document, e, owner, "control");
+  if (!control.empty()) {
+    spec.lower = control[0];
+    spec.upper = control[1];
+  }
+  builder.add_actuator(spec);
+}
+
+}  // namespace
+
 bool add_force_element(const Document& document, const XMLElement& e, ModelBuilder& builder) {
   const std::string kind = e.Name(), name = attribute(e, "name");
   const std::string joint = attribute(e, "joint");
@@ -90,15 +159,9 @@ bool add_force_element(const Document& document, const XMLElement& e, ModelBuild
     } else if (kind == "velocity_servo") {
       builder.add_velocity_servo(name, joint, number(e, "kv", 0), effort);
     } else if (kind == "joint") {
-      if (e.Attribute("armature")) builder.set_armature(name, number(e, "armature", 0));
-      if (e.Attribute("damping")) builder.set_damping(name, number(e, "damping", 0));
-      if (e.Attribute("friction")) builder.set_friction(name, number(e, "friction", 0));
-      if (e.Attribute("stiffness")) {
-        builder.add_joint_spring(name, number(e, "stiffness", 0), number(e, "rest", 0));
-      }
-      if (e.Attribute("limit_restitution")) {
-        builder.set_limit_restitution(name, number(e, "limit_restitution", 0));
-      }
+      set_joint(document, e, {kind, name}, builder);
+    } else if (kind == "actuator") {
+      add_any_actuator(document, e, {kind, name}, builder);
     } else if (kind == "spring") {
       builder.add_spring({name, end_on(e, "link1", "xyz1", "rpy1"),
                           end_on(e, "link2", "xyz2", "rpy2"), number(e, "stiffness", 0),
@@ -109,6 +172,7 @@ bool add_force_element(const Document& document, const XMLElement& e, ModelBuild
       return false;
     }
   } catch (const ModelError& error) {
+    if (std::string(error.what()).find(document.at(e)) == 0) throw;
     throw ModelError(document.at(e) + error.what(), error.element, error.name);
   }
   return true;

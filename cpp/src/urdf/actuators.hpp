@@ -11,9 +11,9 @@ namespace saltus::reader {
 /// that are not there or have not one coordinate, are named in a warning.
 void add_transmissions(const Document& document, ModelBuilder& builder);
 
-/// `<motor>`, `<position_servo>`, `<velocity_servo>`, `<spring>`, `<gravity_compensation>`, and
-/// `<joint>` with armature, spring and restitution. @return false where the element is none of
-/// these.
+/// `<motor>`, `<position_servo>`, `<velocity_servo>`, `<actuator>`, `<spring>`,
+/// `<gravity_compensation>`, and `<joint>` with armature, spring or curve, and restitution. @return
+/// false where the element is none of these.
 bool add_force_element(const Document& document, const XMLElement& element, ModelBuilder& builder);
 
 }  // namespace saltus::reader

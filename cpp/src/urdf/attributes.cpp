@@ -15,6 +15,16 @@ Vec3 vector(const XMLElement& element, const char* name, const Vec3& otherwise) 
   return values.empty() ? otherwise : Vec3(values[0], values[1], values[2]);
 }
 
+std::vector<double> numbers(const Document& document, const XMLElement& element, const Owner& owner,
+                            const char* name) {
+  const Numbers numbers = parse_numbers(attribute(element, name));
+  if (!numbers.bad.empty()) {
+    document.fail(element, owner,
+                  "has " + in_quotes(numbers.bad) + " in " + name + "; it is numbers");
+  }
+  return numbers.values;
+}
+
 Pose origin(const XMLElement& element) {
   const XMLElement* origin = element.FirstChildElement("origin");
   if (origin == nullptr) return {};

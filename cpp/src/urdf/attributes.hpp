@@ -9,6 +9,11 @@ namespace saltus::reader {
 double number(const XMLElement& element, const char* name, double otherwise);
 Vec3 vector(const XMLElement& element, const char* name, const Vec3& otherwise);
 
+/// As many numbers as there are; the checks leave these alone.
+/// @throws ModelError where one is none
+std::vector<double> numbers(const Document& document, const XMLElement& element, const Owner& owner,
+                            const char* name);
+
 /// A frame on a link, by the names of the attributes that say where.
 At end_on(const XMLElement& element, const char* link, const char* xyz, const char* rpy);
 

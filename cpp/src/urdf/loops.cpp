@@ -3,7 +3,6 @@
 #include <array>
 
 #include "urdf/attributes.hpp"
-#include "urdf/numbers.hpp"
 
 namespace saltus::reader {
 namespace {
@@ -27,15 +26,6 @@ At checked_end(const Document& document, const XMLElement& e, const Owner& owner
                     list_names(document.names("link")));
 }
 
-std::vector<double> numbers_of(const Document& document, const XMLElement& e, const Owner& owner,
-                               const char* name) {
-  const Numbers numbers = parse_numbers(attribute(e, name));
-  if (!numbers.bad.empty()) {
-    document.fail(e, owner, "has " + in_quotes(numbers.bad) + " in " + name + "; it is numbers");
-  }
-  return numbers.values;
-}
-
 }  // namespace
 
 bool add_loop_element(const Document& document, const XMLElement& e, ModelBuilder& builder) {
@@ -50,10 +40,10 @@ bool add_loop_element(const Document& document, const XMLElement& e, ModelBuilde
                        end(end_on(e, "link2", "xyz2", "rpy2")), number(e, "distance", 0));
     } else if (kind == "coupling") {
       builder.add_coupling(owner.name, attribute(e, "of"),
-                           numbers_of(document, e, owner, "polynomial"));
+                           numbers(document, e, owner, "polynomial"));
     } else {
-      builder.set_prescribed(owner.name, numbers_of(document, e, owner, "times"),
-                             numbers_of(document, e, owner, "values"));
+      builder.set_prescribed(owner.name, numbers(document, e, owner, "times"),
+                             numbers(document, e, owner, "values"));
     }
   } catch (const ModelError& error) {
     if (std::string(error.what()).find(document.at(e)) == 0) throw;

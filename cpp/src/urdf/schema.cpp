@@ -101,6 +101,11 @@ std::vector<ElementRule> drive_rules() {
        .numbers = {{"kv", 1, required}, effort},
        .texts = {{"name", required}, {"joint", required}},
        .strict = true},
+      {.name = "actuator",
+       .numbers =
+           {{"gain"}, {"bias", 3}, effort, {"control", 2, !required, !positive, may_be_infinite}},
+       .texts = {{"name", required}, {"joints", required}, {"ratios"}},
+       .strict = true},
       {.name = "spring",
        .numbers = {{"xyz1", 3}, {"xyz2", 3}, {"stiffness"}, {"length"}, {"damping"}},
        .texts = {{"name", required}, {"link1", required}, {"link2", required}},
@@ -115,8 +120,9 @@ std::vector<ElementRule> drive_rules() {
                    {"friction"},
                    {"stiffness"},
                    {"rest"},
+                   {"slopes", 2},
                    {"limit_restitution"}},
-       .texts = {{"name", required}},
+       .texts = {{"name", required}, {"angles"}, {"forces"}},
        .strict = true}};
 }
 

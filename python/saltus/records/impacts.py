@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from saltus._core import Impact, ImpactOutcome, StepReport
+from saltus._core import Impact
 from saltus.records.models import html_table
-from saltus.records.tables import counted, without_tails
+from saltus.records.tables import counted
 
-MOST_IMPULSES = 8  # of a repr; longer cascades are counted
 MOST_ROWS = 30  # of a table that print makes; a cradle of 1000 balls has 999 impulses at once
 
 
@@ -84,44 +81,17 @@ def _cells(impact: Impact, i: int) -> tuple[str, str, str, str]:
     return str(i + 1), impact.pairs[i], f"{impact.lambdas[i]:.4g}", f"({friction})"
 
 
-def _html(self: Impact) -> str:
-    count = len(self.pairs)
-    rubs = self.tangentials.any()
-    width = 4 if rubs else 3
+def as_html(impact: Impact) -> str:
+    """Return what a notebook shows."""
+    count = len(impact.pairs)
+    width = 4 if impact.tangentials.any() else 3
     heads = ["#", "pair", "λ [N s]", "friction [N s]"][:width]
-    rows = [list(_cells(self, i)[:width]) for i in range(min(count, MOST_ROWS))]
+    rows = [list(_cells(impact, i)[:width]) for i in range(min(count, MOST_ROWS))]
     if count > MOST_ROWS:
         rows.append(["", f"... {count - MOST_ROWS} more", "", ""][:width])
-    return html_table(heads, rows, headline(self))
+    return html_table(heads, rows, headline(impact))
 
 
-def _printed(self: Impact) -> str:
-    return impact_table(self, most=MOST_ROWS)
-
-
-def _of_impact(whole: Callable[[Impact], str]) -> Callable[[Impact], str]:
-    def text(self: Impact) -> str:
-        if len(self.pairs) <= MOST_IMPULSES:
-            return whole(self)
-        return f"<saltus.Impact: t = {self.t:g} s, {count_line(self)}>"
-
-    return text
-
-
-def _of_outcome(whole: Callable[[ImpactOutcome], str]) -> Callable[[ImpactOutcome], str]:
-    def text(self: ImpactOutcome) -> str:
-        return without_tails(whole(self))
-
-    return text
-
-
-def _of_report(self: StepReport) -> str:
-    return f"StepReport(iterations={self.iterations}, arcs={self.arcs}, impacts={self.impacts!r})"
-
-
-# Of the compiled class itself, so that impacts of runs and of a stepper's reports print alike.
-Impact.__str__ = _printed  # type: ignore[method-assign]
-Impact._repr_html_ = _html  # type: ignore[method-assign]
-Impact.__repr__ = _of_impact(Impact.__repr__)  # type: ignore[method-assign]
-ImpactOutcome.__repr__ = _of_outcome(ImpactOutcome.__repr__)  # type: ignore[method-assign]
-StepReport.__repr__ = _of_report  # type: ignore[method-assign]
+def printed(impact: Impact) -> str:
+    """Return what `print(impact)` prints."""
+    return impact_table(impact, most=MOST_ROWS)

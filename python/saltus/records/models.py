@@ -4,22 +4,12 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from html import escape
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from saltus._core import (
-    Coordinate,
-    Frames,
-    JointInfo,
-    JointType,
-    Mimic,
-    Model,
-    PlacedShape,
-    State,
-    shape_name,
-)
-from saltus.records.tables import counted, without_tails
+from saltus._core import JointInfo, JointType, Model, PlacedShape, shape_name
+from saltus.records.tables import counted
 
 MOST_ROWS = 60  # of a tree that print makes; a cradle of 1000 balls has 2000 joints
 
@@ -156,41 +146,16 @@ def html_table(heads: list[str], rows: list[list[str]], caption: str = "") -> st
     return f"<table>{head}<tbody>{body}</tbody></table>"
 
 
-def _printed(self: Model) -> str:
-    return model_tree(self, most=MOST_ROWS)
+def printed(model: Model) -> str:
+    """Return what `print(model)` prints."""
+    return model_tree(model, most=MOST_ROWS)
 
 
-def _html(self: Model) -> str:
-    rows = list(_rows(self))
+def as_html(model: Model) -> str:
+    """Return what a notebook shows."""
+    rows = list(_rows(model))
     cells = [["  " * row.depth + (row.joint or row.link), *row[2:]] for row in rows[:MOST_ROWS]]
     if len(rows) > MOST_ROWS:
         cells.append([f"... {counted(len(rows) - MOST_ROWS, 'more joint')}", *[""] * 6])
     heads = ["joint", "type", "axis", "limits", "link", "mass", "shapes"]
-    return html_table(heads, cells, headline(self))
-
-
-def _coordinate(self: Coordinate) -> str:
-    joint = "" if self.joint == self.name else f" of {self.joint!r}"
-    limited = not (math.isinf(self.lower) and math.isinf(self.upper))
-    limits = f", {self.lower:.4g} to {self.upper:.4g}" if limited else ""
-    return f"Coordinate({self.name!r}{joint}, [{self.unit}]{limits})"
-
-
-def _mimic(self: Mimic) -> str:
-    return f"Mimic({self.joint!r}, multiplier={self.multiplier:g}, offset={self.offset:g})"
-
-
-def _short(whole: Callable[[Any], str]) -> Callable[[Any], str]:
-    def text(self: object) -> str:
-        return without_tails(whole(self))
-
-    return text
-
-
-# Of the compiled classes themselves, as impacts.py does.
-Coordinate.__repr__ = _coordinate  # type: ignore[method-assign]
-Mimic.__repr__ = _mimic  # type: ignore[method-assign]
-State.__repr__ = _short(State.__repr__)  # type: ignore[method-assign]
-Frames.__repr__ = _short(Frames.__repr__)  # type: ignore[method-assign]
-Model.__str__ = _printed  # type: ignore[method-assign]
-Model._repr_html_ = _html  # type: ignore[method-assign]
+    return html_table(heads, cells, headline(model))

@@ -16,7 +16,6 @@ from saltus._core import (
     ModelError,
     OnFailure,
     State,
-    StepError,
     StepOptions,
     Wrench,
 )
@@ -142,7 +141,7 @@ def simulate_batch(
                 on_failure=on_failure,
                 progress=report,
             )
-        except (ModelError, StepError) as error:  # of a run: it has its rows, as in simulate
+        except Exception as error:  # of a run: it has its rows, as in simulate
             if core.failures:
                 keep_rows(error, Trajectory.from_core(core.run(min(core.failures))))
             raise

@@ -76,6 +76,8 @@ def to_controls(
             f"control has shape {array.shape}; it must have shape (n_u,), (runs, n_u) or "
             f"(runs, steps, n_u), a column for each of {', '.join(names) or 'no actuator'}"
         )
+    if array.ndim == 3 and array.shape[1] == 0:
+        raise ModelError(f"control has shape {array.shape}; it has one row of a step at least")
     if array.ndim > 1 and len(array) != runs:
         raise ModelError(f"control has {counted(len(array), 'row')} for {counted(runs, 'run')}")
     if array.ndim < 3:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kit/random_trees.hpp"
+#include "numeric.hpp"
 
 namespace saltus {
 namespace {
@@ -67,6 +68,46 @@ TEST(Equalities, GradientsAreThoseOfDifferences) {
           << "tree " << k << ", velocity " << c;
     }
   }
+}
+
+TEST(Equalities, NeededAccelerationsAreThoseOfDifferences) {
+  for (int k = 0; k < 40; ++k) {
+    const test::RandomTree random_tree = test::varied_ball_tree(k);
+    const Tree& tree = random_tree.tree;
+    test::Random random(static_cast<std::uint64_t>(k));
+    const EqualityModel model = random_equalities(random, tree);
+    const VecX v = VecX::NullaryExpr(tree.n_v, [&] { return random.uniform(-1, 1); });
+    Kinematics kin(tree);
+    set_configuration(tree, random_tree.q, kin);
+    set_velocity(tree, v, kin);
+    VecX needed(model.rows), q(tree.n_q);
+    set_needed_accelerations(tree, model, kin, v, 0, needed);
+    // A'^T v, along the motion at constant v
+    const VecX bend = test::derivative(
+        [&](double s) -> VecX {
+          integrate(tree, random_tree.q, s, v, q);
+          return values_at(tree, model, q).A.transpose() * v;
+        },
+        0.01);
+    // eighth order: 1e-16 of the ninth derivative, rounding 1e-14
+    EXPECT_LE((needed + bend).norm(), 1e-11 * (1 + bend.norm())) << "tree " << k;
+  }
+}
+
+TEST(Equalities, AToldMotionIsAskedForItsAcceleration) {
+  Tree tree;
+  add_joint(tree, -1, {Joint::Kind::prismatic}, {}, {0, 1, 0});
+  EqualityModel model;
+  model.all = {{.name = "told", .type = LoopType::prescribed, .a = {0, {}}}};
+  model.all[0].motion = [](double t) { return PrescribedMotion{t * t, 2 * t, 2}; };
+  model.rows = 1;
+  Kinematics kin(tree);
+  VecX needed(1);
+  set_needed_accelerations(tree, model, kin, VecX::Zero(1), 3, needed);
+  EXPECT_EQ(needed[0], 2);
+  model.all[0].motion = [](double t) { return PrescribedMotion{t, 1}; };
+  set_needed_accelerations(tree, model, kin, VecX::Zero(1), 3, needed);
+  EXPECT_TRUE(std::isnan(needed[0]));
 }
 
 TEST(Equalities, JointsThatAreReadAreAllThatMatter) {

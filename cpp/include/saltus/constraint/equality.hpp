@@ -13,6 +13,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,10 @@ namespace saltus {
 
 enum class LoopType { point, weld, distance, on_plane, coupling, prescribed };
 
-/// A displacement [rad | m] and its rate at one time.
+/// A displacement [rad | m], its rate and the rate of that at one time.
 struct PrescribedMotion {
   double x, rate;
+  double acceleration = std::numeric_limits<double>::quiet_NaN();  ///< where nobody says
 };
 
 /// "point", "weld", ...
@@ -44,6 +46,7 @@ struct Equality {
   double distance = 0;                                    ///< [m]
   std::vector<double> polynomial = {};                    ///< of a coupling, by rising powers
   std::function<PrescribedMotion(double t)> motion = {};  ///< of a prescribed joint
+  double lock = 0;                                        ///< likewise, see locks_of
   int first = 0;                                          ///< row
 };
 
@@ -66,6 +69,11 @@ struct EqualityValues {
   VecX drive;  ///< (m) -dh/dt: A^T v where h stays 0
 };
 
+/// What is added to the diagonal of M and J at velocities (n_v) that move as they are told, whose
+/// own inertia may be none (theory, F7): an inertia as large as those of the model. Empty where
+/// there are none. EqualitySolver::lock takes the same out of multipliers, by row.
+SALTUS_EXPORT VecX locks_of(const Tree& tree, const EqualityModel& model);
+
 /// Joints whose poses set_equalities reads.
 SALTUS_EXPORT std::vector<int> joints_read(const Tree& tree, const EqualityModel& model);
 
@@ -73,5 +81,11 @@ SALTUS_EXPORT std::vector<int> joints_read(const Tree& tree, const EqualityModel
 SALTUS_EXPORT void set_equalities(const Tree& tree, const EqualityModel& model,
                                   const Kinematics& kin, const VecRef& q, double t,
                                   EqualityValues& out);
+
+/// What A^T a is where h stays 0 along the motion: drive' - A'^T v (m). Not a number where the
+/// acceleration of a prescribed joint is not known. Needs set_velocity in `kin`.
+SALTUS_EXPORT void set_needed_accelerations(const Tree& tree, const EqualityModel& model,
+                                            const Kinematics& kin, const VecRef& v, double t,
+                                            VecX& out);
 
 }  // namespace saltus

@@ -17,4 +17,11 @@ SALTUS_EXPORT void check_derivatives(const Model& model, const std::string& name
 /// The same of a force that no model has.
 SALTUS_EXPORT void check_derivatives(const Model& model, const FunctionForce& force);
 
+/// Of all forces and potentials of the model, at two places beside q (n_q), once a model: where a
+/// stepper first starts. Each entry is judged by central differences and one-sided ones: those that
+/// differ from each other, as at a kink, judge nothing, nor do places that a function refuses.
+/// Nothing is asked of forces that return Q alone.
+/// @throws ModelError with the entry, what the function says, and what differences say
+SALTUS_EXPORT void check_derivatives_once(const Model& model, const VecRef& q, double t);
+
 }  // namespace saltus

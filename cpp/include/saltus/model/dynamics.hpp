@@ -2,7 +2,7 @@
 //
 // q is (rows, n_q); v, a and forces are (rows, n_v). An argument of one row stands for all rows.
 // @throws ModelError where widths or numbers of rows differ, or a value is not finite; the message
-// has the row.
+// has the row. t is the time of joints that move as they are told, one of all rows.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,8 @@ SALTUS_EXPORT MatX momenta(const Model& model, const RowsRef& q, const RowsRef& 
 
 SALTUS_EXPORT MatX gravity_forces(const Model& model, const RowsRef& q);  ///< (rows, n_v)
 SALTUS_EXPORT MatX inverse_dynamics(const Model& model, const RowsRef& q, const RowsRef& v,
-                                    const RowsRef& a);
+                                    const RowsRef& a, double t = 0);
 SALTUS_EXPORT MatX accelerations(const Model& model, const RowsRef& q, const RowsRef& v,
-                                 const RowsRef& forces);
+                                 const RowsRef& forces, double t = 0);
 
 }  // namespace saltus

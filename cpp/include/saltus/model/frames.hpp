@@ -9,7 +9,8 @@
 //   statics      gravity_forces, centre_of_mass, momentum
 //   dynamics     M a + c(q, v) = forces + gravity_forces + potentials, c = 0 at rest
 //
-// Springs, other potentials and joints' armature are in the dynamics; contacts, limits, damping,
+// Springs, other potentials and joints' armature are in the dynamics, and so are loops, couplings
+// and joints that move as they are told (loop_dynamics.hpp), at time t. Contacts, limits, damping,
 // friction, motors and forces that are functions are not.
 #pragma once
 
@@ -17,6 +18,7 @@
 
 #include "saltus/lagrangian/newton_euler.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/model/loop_dynamics.hpp"
 #include "saltus/model/motion.hpp"
 
 namespace saltus {
@@ -59,17 +61,22 @@ class SALTUS_EXPORT Frames {
   /// (n_v) [N m | N] what gravity does to the coordinates, less what is compensated; holding
   /// still takes its opposite.
   void gravity_forces(VecX& out);
-  /// M a + c - gravity_forces - potentials (n_v): the forces that make these accelerations.
-  void inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out);
-  /// The accelerations (n_v) under gravity and `forces` (n_v).
-  /// @throws StepError where the mass matrix is singular.
-  void accelerations(const VecRef& v, const VecRef& forces, VecX& out);
+  /// M a + c - gravity_forces - potentials (n_v): the forces that make these accelerations. Where
+  /// there are loops many do; these are what the loops do not take, 0 of joints that move as they
+  /// are told.
+  /// @throws ModelError where a loop is open, or v or a would open it
+  void inverse_dynamics(const VecRef& v, const VecRef& a, VecX& out, double t = 0);
+  /// The accelerations (n_v) under gravity and `forces` (n_v), which keep loops closed.
+  /// @throws StepError where the mass matrix is singular; ModelError where a loop is open, or opens
+  void accelerations(const VecRef& v, const VecRef& forces, VecX& out, double t = 0);
 
   Gaps gaps();  ///< as Model::gaps
   MatX mass_matrix() { return saltus::mass_matrix(model_->tree, model_->packed, q_); }
 
  private:
   void move(const VecRef& v);
+  void set_tree_forces(const VecRef& v, const VecRef& a, VecX& out);  ///< of the tree alone
+  void factorize_mass();
   void sum_masses();            ///< subtrees' I, h and U, once a configuration
   Vec3 origin(int tree) const;  ///< [m] p_WO of a tree of `packed`
 
@@ -77,8 +84,9 @@ class SALTUS_EXPORT Frames {
   VecX q_;
   Packed w_;
   PackedForces forces_;
-  std::optional<PackedMatrix> M_;  ///< made where it is first needed
-  VecX zero_;                      ///< (n_v)
+  std::optional<PackedMatrix> M_;      ///< made where it is first needed
+  std::optional<LoopDynamics> loops_;  ///< where the model has some
+  VecX zero_;                          ///< (n_v)
   bool summed_ = false;
 };
 

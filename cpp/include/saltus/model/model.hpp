@@ -1,6 +1,7 @@
 // A model: frozen, checked, cheap to copy. Made by ModelBuilder; the floors below meet here.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -113,6 +114,8 @@ struct ModelData {
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
   std::shared_ptr<const ModelDescription> description;  ///< what build() made it of
+  /// True once the derivatives of its functions have been looked at; null where it has none.
+  std::shared_ptr<std::atomic<bool>> has_checked_functions;
 
   bool has_gaps() const { return !pairs.empty() || !limits.empty(); }
   bool is_limit(int pair) const { return pair >= first_limit; }

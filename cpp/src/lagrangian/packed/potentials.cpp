@@ -226,7 +226,7 @@ namespace saltus {
 void check_springs(const PackedTree& t, const Packed& w, double time) {
   for (std::size_t k = 0; t.potentials != nullptr && k < t.potentials->springs.size(); ++k) {
     const PackedSpring& spring = t.potentials->springs[k];
-    if (spring.is_smooth() || w.springs[k].d > 0) continue;
+    if (spring.is_smooth() || w.springs[k].d != 0) continue;  // no number is another's error
     std::ostringstream text;
     text << "spring \"" << spring.name << "\" has both ends in one point at t = " << time
          << " s, where its force has no direction; one of length 0 may pass there";

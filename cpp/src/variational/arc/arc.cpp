@@ -152,7 +152,7 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
       kin_end(model.tree) {
   if (law == ImpactLaw::compensated) compensation.emplace(model);
   if (model.equalities.rows > 0) loops.emplace(model);
-  J.lock = locks_of(model);
+  J.lock = locks_of(model.tree, model.equalities);
   q.setZero(model.tree.n_q);
   for (VecX* each : {&L_v, &L_q, &r, &scale, &dv, &x}) each->setZero(model.tree.n_v);
   prepare_forces(model, *this);

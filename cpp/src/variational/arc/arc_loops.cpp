@@ -25,9 +25,8 @@ bool set_solver(const ModelData& model, double tau, ArcScratch& s) {
 
 ArcLoops::ArcLoops(const ModelData& model)
     : end(model.tree.n_v, model.equalities.rows),
-      solver(model.tree.n_v, model.equalities.rows),
+      solver(model.tree.n_v, model.equalities),
       joints(joints_read(model.tree, model.equalities)) {
-  set_locks(model, solver);
   for (VecX* x : {&mu, &dmu, &rate}) x->setZero(model.equalities.rows);
   for (VecX* x : {&push, &size}) x->setZero(model.tree.n_v);
 }

@@ -157,7 +157,7 @@ bool press_rows(const Scene& scene, const VecX& q_end, const Node& node, Rows& r
     if (row.is_active) continue;
     if (!placed) place_end(scene.model, q_end, s);
     placed = true;
-    if (pair_gap_at_end(scene.model, row.watched(), s).phi >= floor_of(node, row.slot)) continue;
+    if (pair_gap_at_end(scene.model, row.watched(), s).phi >= press_below(node, row.slot)) continue;
     activate(scene, i, node, rows);
     changed = true;
   }

@@ -13,12 +13,6 @@ bool is_certified(double distance, const Pair& pair, double floor, const Flight&
   return distance - (f.broad.motion[pair.a] + f.broad.motion[pair.b]) > floor;
 }
 
-/// The pair can go no lower than this; edges meet at 0.
-double reachable(const Node& node, int slot) {
-  const Pair& pair = node.pool[slot];
-  return pair.kind == PairKind::crossing ? 0 : floor_of(node, slot);
-}
-
 bool is_clear_on_chord(const Scene& scene, const Pair& solid, int slot, const Node& node,
                        const Flight& f) {
   const int number = node.pool.solid_number(slot);
@@ -44,13 +38,14 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
 
 void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   if (!is_watched(node, f, slot)) return;
-  const Pair& pair = node.pool[slot];
-  const double distance = node.clear_pairs.least(slot, pair);
-  if (!pair.is_stop() && is_certified(distance, pair, reachable(node, slot), f)) return;
-  const ChordHit hit =
-      first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, floor_of(node, slot));
-  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const int contact = node.contact_at(slot);
+  const double level = contact < 0 ? press_below(node, slot) : floor_of(node, slot);
+  const Pair& pair = node.pool[slot];
+  const double reachable = pair.kind == PairKind::crossing ? 0 : level;  // edges meet at 0
+  const double distance = node.clear_pairs.least(slot, pair);
+  if (!pair.is_stop() && is_certified(distance, pair, reachable, f)) return;
+  const ChordHit hit = first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, level);
+  if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
   f.hits.push_back({slot, hit.s, hops});
 }

@@ -147,7 +147,9 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
     if (k > 2 && !is_free(f.work) && std::isfinite(secant)) g.slope = secant;
     tau_last = tau;
     phi_last = g.phi;
-    const bool stalled = std::abs(g.phi) <= touch / 2 && std::abs(g.phi) >= phi_before / 2;
+    // a stop is a number: there what stalls is a slope that leaves aside what holds the arc
+    const double near = pair.is_stop() ? 1e-2 * touch : touch / 2;
+    const bool stalled = std::abs(g.phi) <= near && std::abs(g.phi) >= phi_before / 2;
     if (std::abs(g.phi) <= 1e-3 * touch || stalled) return ImpactTime::found;
     if (g.phi > 0 && tau >= whole) return ImpactTime::missed;
     if (g.phi > 0) {

@@ -12,35 +12,8 @@ namespace saltus {
 NodeEqualities::NodeEqualities(const ModelData& model)
     : some(model.equalities.rows > 0), values(model.tree.n_v, model.equalities.rows) {
   if (!some) return;
-  solver = EqualitySolver(model.tree.n_v, model.equalities.rows);
-  set_locks(model, solver);
+  solver = EqualitySolver(model.tree.n_v, model.equalities);
   for (VecX* each : {&rate, &kick, &impulse}) each->setZero(model.equalities.rows);
-}
-
-/// An inertia as large as those there are.
-double lock_of(const ModelData& model) {
-  double most = 0;
-  for (const Link& link : model.links) {
-    most = std::max({most, link.mass, link.inertia.I_J.cwiseAbs().maxCoeff()});
-  }
-  return most > 0 ? most : 1;
-}
-
-VecX locks_of(const ModelData& model) {
-  VecX out;
-  for (const Equality& e : model.equalities.all) {
-    if (e.type != LoopType::prescribed) continue;
-    if (out.size() == 0) out.setZero(model.tree.n_v);
-    const Drive& drive = model.tree.drive[e.a.joint];
-    out[drive.velocity] += drive.multiplier * drive.multiplier * lock_of(model);
-  }
-  return out;
-}
-
-void set_locks(const ModelData& model, EqualitySolver& solver) {
-  for (const Equality& e : model.equalities.all) {
-    if (e.type == LoopType::prescribed) solver.lock[e.first] = lock_of(model);
-  }
 }
 
 /// Joints with dry friction that the loops hold: a row of theirs would be the rounding of nothing.

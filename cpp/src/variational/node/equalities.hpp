@@ -5,8 +5,8 @@
 // `hold`, and momenta are those with A^T M^-1 p = 0.
 #pragma once
 
+#include "saltus/constraint/equality_solver.hpp"
 #include "saltus/model/model.hpp"
-#include "variational/node/equality_solver.hpp"
 
 namespace saltus {
 
@@ -27,11 +27,6 @@ struct NodeEqualities {
   VecX impulse;             ///< (m) what they pushed there: what `p` has gained along A
   std::vector<char> still;  ///< (dry) joints that the loops let not move
 };
-
-/// What is added to the diagonal of M and J at coordinates that move as they are told, whose own
-/// inertia may be none (theory, F7); empty where there are none.
-VecX locks_of(const ModelData& model);
-void set_locks(const ModelData& model, EqualitySolver& solver);
 
 /// Holds loops at a node whose M is factored, p and v = M^-1 p written.
 /// @return false where the rank of the loops changes

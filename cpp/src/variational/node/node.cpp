@@ -27,7 +27,7 @@ Node::Node(const Scene& scene, PairPool& pairs)
   const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
   add_dry_joints(scene, *this);
-  M.lock = locks_of(scene.model);
+  M.lock = locks_of(scene.model.tree, scene.model.equalities);
 }
 
 void add_dry_joints(const Scene& scene, Node& node) {
@@ -154,6 +154,14 @@ double floor_of(const Node& node, int slot) {
   const int contact = node.contact_at(slot);
   const double phi = contact < 0 ? node.sunk_at(slot) : node.contacts[contact].phi;
   return std::min(0.0, phi) - node.pool[slot].touch;
+}
+
+double press_below(const Node& node, int slot) {
+  if (slot >= node.pool.limits()) return floor_of(node, slot);
+  const int contact = node.contact_at(slot);
+  const double phi = contact < 0 ? 0 : node.contacts[contact].phi;
+  constexpr double part_of_touch = 1e-4;
+  return std::min(phi, -part_of_touch * node.pool[slot].touch);
 }
 
 double node_energy(const Scene& scene, const Node& node) {

@@ -143,6 +143,13 @@ double typical_speed(const Scene& scene, const Node& node);
 /// The gap below which a pair that rests at the node is pressed: it may not sink any further.
 double floor_of(const Node& node, int slot);
 
+/// Below which a pair that rests at the node is pressed in the arc, and one that does not touch
+/// hits: floor_of, but for stops. A stop
+/// is a number, exact to rounding, and a joint that sank by less than its touch in each arc would
+/// creep for ever under a small force; it sinks by next to nothing, and once. Gaps of shapes are no
+/// better than their touch.
+double press_below(const Node& node, int slot);
+
 /// H(q, p) [J] at a node. Needs v = M^-1 p.
 double node_energy(const Scene& scene, const Node& node);
 

@@ -2,7 +2,9 @@
 #include "variational/step/step_input.hpp"
 
 #include <cmath>
+#include <sstream>
 
+#include "saltus/force/most_number.hpp"
 #include "saltus/model/stiff_damping.hpp"
 #include "variational/arc/arc_forces.hpp"
 #include "variational/step/stepper_impl.hpp"
@@ -31,10 +33,27 @@ void check_law(const ModelData& model, ImpactLaw law) {
   }
 }
 
+namespace {
+
+/// What is too large for arithmetic is told before it is a residual that is no number.
+void check_size(const VecX& x, const char* what) {
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (std::abs(x[k]) <= most_number) continue;
+    std::ostringstream text;
+    text << what << "[" << k << "] = " << x[k] << "; it is at most " << most_number
+         << ", beyond which arithmetic ends";
+    throw ModelError(text.str());
+  }
+}
+
+}  // namespace
+
 void check_input(const Model& model, const ForceInput& input) {
   const int n_u = model->forces.n_u();
   if (input.control.size() > 0) check_vector(input.control, n_u, "control", "actuators");
   if (input.qfrc.size() > 0) check_vector(input.qfrc, model.n_v(), "qfrc", "velocities");
+  check_size(input.control, "control");
+  check_size(input.qfrc, "qfrc");
   for (const AppliedWrench& wrench : input.wrenches) {
     if (wrench.joint < 0 || wrench.joint >= model->tree.joints()) {
       throw ModelError("a wrench acts on a body that is fixed to the world");
@@ -42,6 +61,8 @@ void check_input(const Model& model, const ForceInput& input) {
     const bool is_finite =
         wrench.point_J.allFinite() && wrench.force.allFinite() && wrench.torque.allFinite();
     if (!is_finite) throw ModelError("a wrench has a number that is not finite");
+    check_size(wrench.force, "force of a wrench");
+    check_size(wrench.torque, "torque of a wrench");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "saltus/model/check_derivatives.hpp"
 #include "variational/step/contact_report.hpp"
 #include "variational/terms/check_options.hpp"
 
@@ -171,6 +172,7 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   const VecX q = scene.shared.checked_q(state.q, "state.q");
   check_vector(state.p, scene.shared.n_v(), "state.p", "velocities");
   if (!std::isfinite(state.t)) throw ModelError("state.t is not finite");
+  check_derivatives_once(scene.shared, q, state.t);
   last_is_valid = false;
   last = state;
   last.q = q;

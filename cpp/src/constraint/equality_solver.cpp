@@ -1,4 +1,4 @@
-#include "variational/node/equality_solver.hpp"
+#include "saltus/constraint/equality_solver.hpp"
 
 #include <cmath>
 
@@ -10,11 +10,14 @@ constexpr double independent = 1e-8, redundant = 1e-11;
 
 }  // namespace
 
-EqualitySolver::EqualitySolver(int n_v, int rows)
-    : lu_(rows, rows), svd_(rows, rows, Eigen::ComputeFullU | Eigen::ComputeFullV) {
+EqualitySolver::EqualitySolver(int n_v, const EqualityModel& model)
+    : lu_(model.rows, model.rows),
+      svd_(model.rows, model.rows, Eigen::ComputeFullU | Eigen::ComputeFullV) {
+  const int rows = model.rows;
   for (Columns* each : {&C, &Y}) each->setZero(n_v, rows);
   for (VecX* each : {&mu, &lock, &scale_, &none_, &y_}) each->setZero(rows);
   S_.setZero(rows, rows);
+  for (const Equality& e : model.all) lock[e.first] = e.lock;
 }
 
 bool EqualitySolver::is_regular() const {

@@ -16,9 +16,10 @@
 
 namespace saltus {
 
-struct EqualitySolver {
+struct SALTUS_EXPORT EqualitySolver {
   EqualitySolver() = default;
-  EqualitySolver(int n_v, int rows);
+  /// With the model's locks.
+  EqualitySolver(int n_v, const EqualityModel& model);
 
   /// (m) What has been added to J along A A^T, of a row that J may be singular without: it changes
   /// multipliers alone.
