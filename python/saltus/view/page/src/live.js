@@ -1,13 +1,16 @@
 // A page whose model is simulated while it is open: frames come in, wishes go out.
 
 import * as THREE from 'three';
+import { SEEN } from './arrows.js';
 import { $ } from './bar.js';
+import { boxNow } from './bounds.js';
 import { ICONS } from './icons.js';
 import { bodyMatrix } from './items.js';
+import { impactWords } from './panel.js';
+import { Recent } from './plots.js';
 
-const WINDOW = 10; // s of the energies that are plotted
+const WINDOW = 10; // s that are plotted
 const PLOTS = 8; // plots drawn anew a second
-const SEEN = 150; // ms that an impulse's arrow stays
 
 class Live {
   constructor(page) {
@@ -17,8 +20,10 @@ class Live {
     this.busy = false; // a wish is on its way
     this.waiting = []; // those that wait for it, in order
     this.drawn = 0;
-    this.impulses = [];
+    this.impulses = []; // whose arrows are seen, each until a time
+    this.told = 0; // number of the last impact that is known
     this.take();
+    this.plots();
     this.sliders();
     this.pulling();
     this.source = new EventSource('events');
@@ -57,7 +62,7 @@ class Live {
     const { page } = this;
     const { clock } = page;
     document.body.classList.add('live');
-    for (const id of ['previous', 'next', 'track', 'loop-box', 'impact-box', 'gap-box', 'save-video']) {
+    for (const id of ['previous', 'next', 'track', 'loop-box', 'save-video']) {
       $(id).hidden = true;
     }
     $('single').hidden = false;
@@ -74,10 +79,23 @@ class Live {
     page.motion.set = () => {};
     page.arrows.place = () => {};
     page.panel.impacts = () => {};
-    page.energies = { x: [], kinetic: [], potential: [], total: [] };
-    page.panel.energy = page.energies;
     page.motion.now.set(page.data.poses);
     if (window.innerWidth < 900) page.openPanel(false);
+  }
+
+  plots() {
+    const { page } = this;
+    page.energies = page.panel.energy = new Recent(WINDOW, 'kinetic', 'potential', 'total');
+    page.gap = page.panel.gap = new Recent(WINDOW, 'phi');
+    $('pair').onchange = () => this.wish({ do: 'gap', pair: Number($('pair').value) });
+    this.noImpact();
+  }
+
+  noImpact() {
+    this.told = 0;
+    this.impulses = [];
+    $('impact-title').textContent = 'Last impact';
+    this.page.panel.impactTable('none yet', []);
   }
 
   sliders() {
@@ -116,11 +134,16 @@ class Live {
     $('play').innerHTML ||= ICONS.pause;
     this.values(this.inputs, news.values);
     this.values(this.controls, news.control);
-    this.energies(news);
-    this.arrows(news.arrows);
+    this.begin(news);
+    page.energies.add(news.t, news.kinetic, news.potential, news.kinetic + news.potential);
+    const fresh = this.impacts(news.impacts);
+    this.gap(news, fresh);
+    this.arrows(fresh, news.forces);
+    this.draw(news.t);
     if (news.problem && news.problem !== this.problem) page.say(news.problem);
     this.problem = news.problem;
     this.line();
+    if (!this.grip) page.views.ease(); // the mouse would leave the body
     page.dirty = true;
   }
 
@@ -128,38 +151,75 @@ class Live {
     values.forEach((value, i) => {
       const { input, output, unit } = inputs[i];
       if (!input.matches(':active')) input.value = value;
-      const text = `${value.toFixed(3)} ${unit}`.trim();
+      const text = `${value.toFixed(3).replace(/^-(0\.0*)$/, '$1')} ${unit}`.trim();
       if (output.textContent !== text) output.textContent = text;
     });
   }
 
-  energies({ t, kinetic, potential }) {
+  // Forgets what was before a reset.
+  begin({ beginning }) {
     const { page } = this;
-    const own = page.energies;
-    if (own.x.length && t < own.x.at(-1)) for (const name in own) own[name].length = 0; // a reset
-    if (own.x.at(-1) === t) for (const name in own) own[name].pop();
-    own.x.push(t);
-    own.kinetic.push(kinetic);
-    own.potential.push(potential);
-    own.total.push(kinetic + potential);
-    while (own.x[0] < t - WINDOW) for (const name in own) own[name].shift();
-    const now = performance.now();
-    if (now < this.drawn + 1000 / PLOTS) return;
-    this.drawn = now;
-    Object.assign(page.clock, { start: Math.max(t - WINDOW, own.x[0]), end: Math.max(t, own.x[0] + 1) });
-    page.panel.energyPlot.redraw(page.theme);
+    if (beginning === this.beginning) return;
+    this.beginning = beginning;
+    this.noImpact();
+    page.energies.forget();
+    page.gap.forget();
+    Object.assign(page.arrows.largest, { impulse: 0, force: 0 });
+    page.panel.legend();
   }
 
-  arrows(list) {
-    const now = performance.now();
-    this.impulses = this.impulses.filter(({ until }) => until > now);
-    const forces = [];
-    for (const [kind, pair, point, vector] of list) {
-      const arrow = { kind, pair, point, vector };
-      if (kind === 'impulse') this.impulses.push({ ...arrow, until: now + SEEN });
-      else forces.push(arrow);
+  // Returns the impacts that no frame before told, and shows the last of them as a table.
+  impacts(list) {
+    const fresh = list.filter(({ number }) => number > this.told);
+    if (!fresh.length) return fresh;
+    const { number, t, certificate, impulses } = fresh.at(-1);
+    this.told = number;
+    $('impact-title').textContent = `Last impact, number ${number}`;
+    this.page.panel.impactTable(impactWords(t, certificate), impulses);
+    return fresh;
+  }
+
+  // Adds the gap of the chosen pair; at its impacts it is 0, between two frames too.
+  gap({ t, gap: { pair, phi } }, fresh) {
+    const { gap } = this.page;
+    if (phi === null) return;
+    if (this.pair !== pair) {
+      this.pair = pair;
+      if (!$('pair').matches(':focus')) $('pair').value = pair;
+      gap.forget();
     }
-    this.page.arrows.given(this.impulses, forces);
+    for (const impact of fresh) {
+      if (impact.closed.includes(pair) && impact.t > gap.x.at(-1)) gap.add(impact.t, 0);
+    }
+    gap.add(t, phi);
+  }
+
+  arrows(fresh, forces) {
+    const { page } = this;
+    const now = performance.now();
+    const arrow = (kind) => ([pair, point, vector, normal]) => ({ kind, pair, point, vector, normal });
+    const added = fresh.flatMap(({ arrows }) => arrows.map(arrow('impulse')));
+    for (const each of added) each.until = now + 1000 * SEEN;
+    this.impulses = [...this.impulses.filter(({ until }) => until > now), ...added];
+    if (page.arrows.given([...this.impulses, ...forces.map(arrow('force'))])) page.panel.legend();
+  }
+
+  // Draws the plots anew, less often than frames come.
+  draw(t) {
+    const { page } = this;
+    const now = performance.now();
+    clearTimeout(this.late);
+    const early = this.drawn + 1000 / PLOTS - now;
+    if (early > 0) {
+      this.late = setTimeout(() => this.draw(t), early); // no frame may come after this one
+      return;
+    }
+    this.drawn = now;
+    const start = Math.max(t - WINDOW, page.energies.x[0]);
+    Object.assign(page.clock, { start, end: Math.max(t, start + 1) });
+    page.panel.energyPlot.redraw(page.theme);
+    page.panel.gapPlot.redraw(page.theme);
+    if (!this.grip) page.views.widen(boxNow(page.data, page.motion.now));
   }
 
   // A press on a body pulls it; elsewhere it turns the view.
