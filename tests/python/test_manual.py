@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 from collections import Counter
@@ -14,13 +15,18 @@ from tests.conftest import ROOT
 import saltus
 
 DOCS = ROOT / "python" / "docs"
+HEADERS = ROOT / "cpp" / "include"
+needs_doxygen = pytest.mark.skipif(
+    not shutil.which("doxygen"), reason="doxygen is not installed: apt-get install doxygen"
+)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(
-    not all(map(find_spec, ("sphinx", "myst_parser", "furo"))),
-    reason="needs Sphinx, MyST and furo: sh examples/setup.sh docs",
+    not all(map(find_spec, ("sphinx", "myst_parser", "furo", "breathe"))),
+    reason="needs Sphinx, MyST, furo and Breathe: sh examples/setup.sh docs",
 )
+@needs_doxygen
 def test_it_builds_without_a_warning(tmp_path):
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", DOCS, tmp_path]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -30,6 +36,38 @@ def test_it_builds_without_a_warning(tmp_path):
     assert "animation.webp" in readme  # the README is in it, with its pictures
     assert 'href="concepts.html#friction"' in readme
     assert "saltus.Model.jacobian" in (tmp_path / "reference.html").read_text(encoding="utf-8")
+    steps = (tmp_path / "cpp" / "steps.html").read_text(encoding="utf-8")
+    assert "saltus::Stepper::advance" in steps
+    assert "The state h later." in steps  # words of the header
+    assert "namespace saltus" not in steps
+
+
+@needs_doxygen
+def test_members_of_the_headers_for_users_have_words(tmp_path):
+    settings = (ROOT / "cpp" / "Doxyfile").read_text(encoding="utf-8")
+    done = subprocess.run(
+        ["doxygen", "-"],
+        input=f'{settings}\nOUTPUT_DIRECTORY = "{tmp_path}"\n',
+        cwd=ROOT / "cpp",
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "xml" / "classsaltus_1_1Stepper.xml").exists()
+
+
+def test_each_header_for_users_is_on_one_page_of_the_reference():
+    settings = (ROOT / "cpp" / "Doxyfile").read_text(encoding="utf-8").replace("\\\n", " ")
+    left_out = re.search(r"^EXCLUDE_PATTERNS\s*=(.*)$", settings, re.MULTILINE).group(1).split()
+    read = [
+        path.name
+        for path in sorted(HEADERS.rglob("*.hpp"))
+        if not any(path.match(pattern.removeprefix("*/")) for pattern in left_out)
+    ]
+    pages = [path.read_text(encoding="utf-8") for path in sorted((DOCS / "cpp").glob("*.rst"))]
+    listed = re.findall(r"^\.\. doxygenfile:: (\w+\.hpp)$", "".join(pages), re.MULTILINE)
+    assert sorted(listed) == sorted(set(read) - {"saltus.hpp"})  # that one includes the others
 
 
 def test_the_reference_has_each_name_once():

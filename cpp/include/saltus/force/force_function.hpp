@@ -36,7 +36,7 @@ struct FunctionForce {
 };
 
 /// Asks, and checks the answer.
-/// @throws ModelError, naming the force, where a shape is wrong or a number not finite
+/// @throws ModelError that names the force, where a shape is wrong or a number not finite
 SALTUS_EXPORT void ask(const FunctionForce& force, const ForceMoment& now, ForceAnswer& answer);
 
 }  // namespace saltus
