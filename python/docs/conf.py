@@ -3,12 +3,16 @@
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 from docutils import nodes
 from sphinx import addnodes
 
 import saltus
+
+sys.path.insert(0, str(Path(__file__).parent))
+import notebooks  # beside this file
 
 project = "saltus"
 author = "The saltus authors"
@@ -18,6 +22,7 @@ HAS_DOXYGEN = bool(shutil.which("doxygen"))  # without it the C++ reference is o
 if HAS_DOXYGEN:
     extensions.append("breathe")
 breathe_default_project = "saltus"
+source_suffix = {".rst": "restructuredtext", ".md": "markdown", ".ipynb": "markdown"}
 html_theme = "furo"
 html_title = f"saltus {release}"
 exclude_patterns = ["pictures/*.py"]
@@ -39,6 +44,13 @@ def _join_names(app, what, name, thing, options, lines: list[str]) -> None:
 def _keep_bars(app, what, name, thing, options, lines: list[str]) -> None:
     """Escape |x|, which docstrings mean as it stands and reST as a substitution."""
     lines[:] = [line.replace("|", r"\|") for line in lines]
+
+
+def _notebook(app, name: str, source: list[str]) -> None:
+    """Run a notebook, and put what its cells show on its page."""
+    path = Path(app.env.doc2path(name))
+    if path.suffix == ".ipynb":
+        source[0] = notebooks.page_of(source[0], path.name)
 
 
 def _readme(app, name: str, source: list[str]) -> None:
@@ -96,4 +108,5 @@ def setup(app) -> None:
     app.connect("doctree-read", _without_namespace, priority=100)  # before contents are made
     app.connect("autodoc-process-docstring", _join_names, priority=400)  # before numpydoc's
     app.connect("autodoc-process-docstring", _keep_bars)
+    app.connect("source-read", _notebook)
     app.connect("source-read", _readme)

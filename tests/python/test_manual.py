@@ -36,6 +36,9 @@ def test_it_builds_without_a_warning(tmp_path):
     assert "animation.webp" in readme  # the README is in it, with its pictures
     assert 'href="concepts.html#friction"' in readme
     assert "saltus.Model.jacobian" in (tmp_path / "reference.html").read_text(encoding="utf-8")
+    tutorial = (tmp_path / "tutorials" / "cradle.html").read_text(encoding="utf-8")
+    assert tutorial.count("<iframe srcdoc=") == 1  # the run plays in it
+    assert "first impact at 0.504614 s" in tutorial
     steps = (tmp_path / "cpp" / "steps.html").read_text(encoding="utf-8")
     assert "saltus::Stepper::advance" in steps
     assert "The state h later." in steps  # words of the header
@@ -81,7 +84,8 @@ def test_the_reference_has_each_name_once():
 
 def test_each_page_is_in_the_contents():
     text = (DOCS / "index.md").read_text(encoding="utf-8")
-    for page in sorted(DOCS.glob("*.md")):
+    for page in sorted([*DOCS.glob("*.md"), *DOCS.glob("tutorials/*.ipynb")]):
         if page.stem not in ("index", "readme"):
-            assert f"]({page.name})" in text, page.name
-            assert f"\n   {page.stem}\n" in text, f"{page.name} is in no toctree"
+            name = page.relative_to(DOCS)
+            assert f"]({name})" in text, name
+            assert f"\n   {name.with_suffix('')}\n" in text, f"{name} is in no toctree"
