@@ -82,6 +82,33 @@ def test_the_reference_has_each_name_once():
     assert set(listed.values()) == {1}
 
 
+def test_the_theory_has_each_section_that_the_code_names():
+    theory = (DOCS / "theory.md").read_text(encoding="utf-8")
+    there = set(re.findall(r"^(?:## |\*\*)(\d|F\d|O\d?)\.", theory, re.MULTILINE))
+    one = r"(?:\d|F\d|O\d?)\b"
+    named = set()
+    for folder in ("cpp", "python/saltus", "python/bindings"):
+        for path in (ROOT / folder).rglob("*.[hcp][py]*"):
+            text = re.sub(r"\n\s*//+", "", path.read_text(encoding="utf-8"))
+            sections = rf"[Tt]heory[,:]? (?:sections? )?({one}(?:(?:,| and) {one})*)"
+            for where in re.findall(sections, text):
+                named |= set(re.split(r", | and ", where))
+    assert {"2", "5", "7", "F1", "O2"} <= named
+    assert named <= there
+
+
+def test_pictures_of_the_concepts_are_what_their_script_draws(tmp_path):
+    script = DOCS / "pictures" / "concepts.py"
+    subprocess.run([sys.executable, script, tmp_path], check=True)
+    for drawn in tmp_path.iterdir():
+        now, kept = (
+            re.findall(r"<text[^>]*>([^<]*)</text>", path.read_text(encoding="utf-8"))
+            for path in (drawn, DOCS / "pictures" / drawn.name)
+        )
+        assert now == kept != [], drawn.name
+    assert len(list(tmp_path.iterdir())) == 3
+
+
 def test_each_page_is_in_the_contents():
     text = (DOCS / "index.md").read_text(encoding="utf-8")
     for page in sorted([*DOCS.glob("*.md"), *DOCS.glob("tutorials/*.ipynb")]):
