@@ -169,7 +169,8 @@ export class Panel {
     this.energyPlot.cursor();
     if (this.gap.x.length) {
       const phi = valueAt(this.gap.x, this.gap.phi, clock.time);
-      key($('gap-line'), theme.curves, [['φ', `${short(Number(phi.toPrecision(4)))} m`]]);
+      const touches = Math.abs(phi) < 1e-9 * this.page.bounds.radius; // a gap of rounding
+      key($('gap-line'), theme.curves, [['φ', `${touches ? 0 : short(Number(phi.toPrecision(4)))} m`]]);
       this.gapPlot.cursor();
     }
     this.impacts();
@@ -199,7 +200,8 @@ export class Panel {
     $('impact-line').textContent = words;
     const table = $('impact-table');
     table.hidden = !rows.length;
-    const cells = rows.slice(0, ROWS).map(([pair, lambda]) => [pair, Number(lambda.toPrecision(4))]);
+    const digits = (x) => (x < 1e-3 ? x.toExponential(3) : Number(x.toPrecision(4)));
+    const cells = rows.slice(0, ROWS).map(([pair, lambda]) => [pair, digits(lambda)]);
     if (rows.length > ROWS) cells.push([`… ${rows.length - ROWS} more`, '']);
     table.tBodies[0].replaceChildren(...cells.map(tableRow));
   }
