@@ -100,7 +100,7 @@ def test_a_body_is_pulled_with_the_mouse(browser, tmp_path):
         tab.mouse("mouseMoved", x, y - 280, buttons=1)
         height = "saltus.poses()[0][1][2]"
         until(lambda: tab.run(height) > 0.12)  # it hangs on the point
-        until(lambda: tab.run("saltus.page.live.thread.visible"))
+        until(lambda: tab.run("saltus.page.live.pull.thread.visible"))
         tab.mouse("mouseReleased", x, y - 280)
         until(lambda: tab.run(height) < 0.105)  # it lies on the floor again
         until(lambda: any(a["kind"] == "force" for a in tab.run("saltus.arrows()")))

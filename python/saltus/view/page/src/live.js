@@ -1,16 +1,16 @@
 // A page whose model is simulated while it is open: frames come in, wishes go out.
 
-import * as THREE from 'three';
 import { SEEN } from './arrows.js';
 import { $ } from './bar.js';
 import { boxNow } from './bounds.js';
 import { ICONS } from './icons.js';
-import { bodyMatrix } from './items.js';
 import { impactWords } from './panel.js';
 import { Recent } from './plots.js';
+import { Pull } from './pull.js';
 
 const WINDOW = 10; // s that are plotted
 const PLOTS = 8; // plots drawn anew a second
+const MANY = 60; // sliders; more are set as often as plots are drawn
 
 class Live {
   constructor(page) {
@@ -25,15 +25,29 @@ class Live {
     this.take();
     this.plots();
     this.sliders();
-    this.pulling();
+    this.pull = new Pull(page, (what) => this.wish(what));
     this.source = new EventSource('events');
-    this.source.onmessage = (event) => this.frame(JSON.parse(event.data));
+    this.source.onmessage = ({ data }) => this.newest(data);
     this.source.onerror = () => {
       page.say('The program that simulates this page has ended.');
       this.source.close();
       clearTimeout(page.silence);
     };
     window.addEventListener('pagehide', () => this.source.close());
+  }
+
+  // Takes frames at most as fast as the screen draws: where that is slow the newest is shown, and
+  // none waits for its turn.
+  newest(data) {
+    if (this.news === undefined) {
+      requestAnimationFrame(() => {
+        const text = this.news;
+        this.news = undefined;
+        this.frame(JSON.parse(text));
+      });
+    }
+    this.news = data;
+    this.frames++;
   }
 
   // Sends wishes one after another. Of a slider that moves the newest is kept.
@@ -122,7 +136,6 @@ class Live {
 
   frame(news) {
     const { page } = this;
-    this.frames++;
     this.lags.push(Date.now() - 1000 * news.sent);
     if (this.lags.length > 600) this.lags.shift();
     const bytes = Uint8Array.from(atob(news.poses), (c) => c.charCodeAt(0));
@@ -132,8 +145,8 @@ class Live {
     Object.assign(clock, { time: news.t, playing: news.playing, speed: news.speed });
     if (changed) page.bar.changed();
     $('play').innerHTML ||= ICONS.pause;
-    this.values(this.inputs, news.values);
-    this.values(this.controls, news.control);
+    this.numbers = news;
+    if (this.inputs.length <= MANY) this.values();
     this.begin(news);
     page.energies.add(news.t, news.kinetic, news.potential, news.kinetic + news.potential);
     const fresh = this.impacts(news.impacts);
@@ -142,18 +155,20 @@ class Live {
     this.draw(news.t);
     if (news.problem && news.problem !== this.problem) page.say(news.problem);
     this.problem = news.problem;
-    this.line();
-    if (!this.grip) page.views.ease(); // the mouse would leave the body
+    this.pull.line();
+    if (!this.pull.grip) page.views.ease(); // the mouse would leave the body
     page.dirty = true;
   }
 
-  values(inputs, values) {
-    values.forEach((value, i) => {
-      const { input, output, unit } = inputs[i];
+  values() {
+    const { values, control } = this.numbers;
+    const set = ({ input, output, unit }, value) => {
       if (!input.matches(':active')) input.value = value;
       const text = `${value.toFixed(3).replace(/^-(0\.0*)$/, '$1')} ${unit}`.trim();
       if (output.textContent !== text) output.textContent = text;
-    });
+    };
+    this.inputs.forEach((slider, i) => set(slider, values[i]));
+    this.controls.forEach((slider, i) => set(slider, control[i]));
   }
 
   // Forgets what was before a reset.
@@ -204,7 +219,7 @@ class Live {
     if (page.arrows.given([...this.impulses, ...forces.map(arrow('force'))])) page.panel.legend();
   }
 
-  // Draws the plots anew, less often than frames come.
+  // Draws anew what takes time, less often than frames come.
   draw(t) {
     const { page } = this;
     const now = performance.now();
@@ -217,69 +232,10 @@ class Live {
     this.drawn = now;
     const start = Math.max(t - WINDOW, page.energies.x[0]);
     Object.assign(page.clock, { start, end: Math.max(t, start + 1) });
+    if (this.inputs.length > MANY) this.values();
     page.panel.energyPlot.redraw(page.theme);
     page.panel.gapPlot.redraw(page.theme);
-    if (!this.grip) page.views.widen(boxNow(page.data, page.motion.now));
-  }
-
-  // A press on a body pulls it; elsewhere it turns the view.
-  pulling() {
-    const { page } = this;
-    const { canvas } = page.stage;
-    const material = new THREE.LineBasicMaterial({ color: '#e8481c', depthTest: false });
-    this.thread = new THREE.Line(new THREE.BufferGeometry(), material);
-    this.thread.frustumCulled = false;
-    this.thread.renderOrder = 11;
-    this.thread.visible = false;
-    page.stage.scene.add(this.thread);
-    const plane = new THREE.Plane();
-    const to = (event) => {
-      const [w, h] = [canvas.clientWidth, canvas.clientHeight];
-      const at = new THREE.Vector2((2 * event.offsetX) / w - 1, 1 - (2 * event.offsetY) / h);
-      page.labels.ray.setFromCamera(at, page.stage.camera);
-      return page.labels.ray.ray.intersectPlane(plane, new THREE.Vector3());
-    };
-    const pull = (target) => {
-      if (!target) return;
-      this.grip.to = target;
-      this.line();
-      const { body, at } = this.grip;
-      this.wish({ do: 'pull', body, at: at.toArray(), to: target.toArray() });
-    };
-    // Before the camera's own listener, which is on the canvas.
-    $('picture').addEventListener('pointerdown', (event) => {
-      if (event.target !== canvas || event.button !== 0) return;
-      const found = page.labels.under(event.offsetX, event.offsetY);
-      if (!found || found.item.body < 0) return;
-      event.stopPropagation();
-      canvas.setPointerCapture(event.pointerId);
-      plane.setFromNormalAndCoplanarPoint(
-        page.stage.camera.getWorldDirection(new THREE.Vector3()),
-        found.point,
-      );
-      const inverse = bodyMatrix(page.motion.now, found.item.body).clone().invert();
-      this.grip = { body: found.item.body, at: found.point.clone().applyMatrix4(inverse) };
-      pull(found.point);
-    }, true);
-    canvas.addEventListener('pointermove', (event) => this.grip && pull(to(event)));
-    for (const name of ['pointerup', 'pointercancel']) {
-      canvas.addEventListener(name, () => {
-        if (!this.grip) return;
-        this.grip = null;
-        this.line();
-        this.wish({ do: 'release' });
-      });
-    }
-  }
-
-  // The line from the body to the mouse.
-  line() {
-    const { page, thread } = this;
-    thread.visible = Boolean(this.grip?.to);
-    if (!thread.visible) return;
-    const from = this.grip.at.clone().applyMatrix4(bodyMatrix(page.motion.now, this.grip.body));
-    thread.geometry.setFromPoints([from, this.grip.to]);
-    page.dirty = true;
+    if (!this.pull.grip) page.views.widen(boxNow(page.data, page.motion.now));
   }
 }
 

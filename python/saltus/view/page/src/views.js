@@ -12,7 +12,7 @@ const DIRECTIONS = {
 };
 
 const MOST_WIDE = 4; // times the size at the start that a scene may grow to
-const EASE = 0.1; // part of the way that is left, in a frame
+const EASE = 0.15; // s in which the way that is left shrinks by e
 
 export class Views {
   constructor(stage, bounds, up) {
@@ -69,10 +69,13 @@ export class Views {
 
   // Goes a part of the way to a box that has grown, where the camera is that of a preset.
   ease() {
+    const now = performance.now();
+    const part = 1 - Math.exp(-(now - (this.eased ?? now)) / (1000 * EASE));
+    this.eased = now;
     if (!this.goal) return;
     const own = this.bounds.box;
-    own.min.lerp(this.goal.min, EASE);
-    own.max.lerp(this.goal.max, EASE);
+    own.min.lerp(this.goal.min, part);
+    own.max.lerp(this.goal.max, part);
     const left = own.min.distanceTo(this.goal.min) + own.max.distanceTo(this.goal.max);
     if (left < 1e-3 * this.bounds.radius) this.goal = null;
     if (this.preset && this.followed === null) this.look(this.preset);
