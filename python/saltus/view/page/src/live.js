@@ -22,12 +22,13 @@ class Live {
     this.drawn = 0;
     this.impulses = []; // whose arrows are seen, each until a time
     this.told = 0; // number of the last impact that is known
+    this.waits = null; // the frame to be shown next
     this.take();
     this.plots();
     this.sliders();
     this.pull = new Pull(page, (what) => this.wish(what));
     this.source = new EventSource('events');
-    this.source.onmessage = ({ data }) => this.newest(data);
+    this.source.onmessage = ({ data }) => this.newest(JSON.parse(data));
     this.source.onerror = () => {
       page.say('The program that simulates this page has ended.');
       this.source.close();
@@ -36,18 +37,22 @@ class Live {
     window.addEventListener('pagehide', () => this.source.close());
   }
 
-  // Takes frames at most as fast as the screen draws: where that is slow the newest is shown, and
-  // none waits for its turn.
-  newest(data) {
-    if (this.news === undefined) {
-      requestAnimationFrame(() => {
-        const text = this.news;
-        this.news = undefined;
-        this.frame(JSON.parse(text));
-      });
-    }
-    this.news = data;
+  // Shows frames at most as fast as the screen draws: where that is slow the newest is shown, with
+  // the impacts of those that were not, and none waits for its turn.
+  newest(news) {
     this.frames++;
+    const { waits } = this;
+    if (waits?.beginning === news.beginning) {
+      const first = news.impacts[0]?.number ?? Infinity;
+      news.impacts.unshift(...waits.impacts.filter(({ number }) => number < first));
+    }
+    this.waits = news;
+    if (waits) return;
+    requestAnimationFrame(() => {
+      const shown = this.waits;
+      this.waits = null;
+      this.frame(shown);
+    });
   }
 
   // Sends wishes one after another. Of a slider that moves the newest is kept.
