@@ -54,6 +54,7 @@ ORDER = {
         "show",
         "sliders",
         "pull",
+        "events",
         "live",
     ],
     "runs": [

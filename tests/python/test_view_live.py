@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 import time
@@ -12,6 +13,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from browser import fetch, until
+from scenes import BALL
 from tests.conftest import ROOT
 
 import saltus
@@ -98,10 +100,66 @@ def test_a_body_is_pulled_with_the_mouse(browser, tmp_path):
         tab.mouse("mouseMoved", x, y - 280, buttons=1)
         height = "saltus.poses()[0][1][2]"
         until(lambda: tab.run(height) > 0.12)  # it hangs on the point
-        until(lambda: tab.run("saltus.page.live.thread.visible"))
+        until(lambda: tab.run("saltus.page.live.pull.thread.visible"))
         tab.mouse("mouseReleased", x, y - 280)
         until(lambda: tab.run(height) < 0.105)  # it lies on the floor again
         until(lambda: any(a["kind"] == "force" for a in tab.run("saltus.arrows()")))
+        assert tab.problems == []
+        tab.close()
+
+
+def test_impacts_gap_normals_and_forces_are_those_of_a_run(browser, tmp_path):
+    file = tmp_path / "ball.urdf"
+    file.write_text(BALL)
+    dropped = ("--floating", "--floor", "--contact", "0.5,0.3", "--set", "root_z=0.5")
+    with program(file, *dropped) as (_, url):
+        tab = browser.open(url).ready()
+        assert tab.run("[...document.getElementById('pair').options].map((o) => o.text)") == [
+            "ball ~ floor"
+        ]
+        told = "saltus.page.live.told"
+        until(lambda: tab.run("saltus.page.live.frames") > 1)
+        at_rest(tab)
+        tab.run("document.getElementById('reset').click()")  # it fell while the page was opened
+        until(lambda: tab.run("saltus.time") == 0)
+        tab.click("#play")
+        until(lambda: tab.run(told) >= 1)
+        # The gap is 0 at the instant of an impact, which lies between two frames.
+        first = tab.run("saltus.page.gap.x[saltus.page.gap.phi.indexOf(0)]")
+        assert first == pytest.approx(math.sqrt(2 * 0.4 / 9.81), abs=1e-3)
+        until(lambda: any(a["kind"] == "force" for a in tab.run("saltus.arrows()")))  # it lies
+        (force,) = (a for a in tab.run("saltus.arrows()") if a["kind"] == "force")
+        np.testing.assert_allclose(force["vector"], [0, 0, 9.81], atol=1e-6)
+        np.testing.assert_allclose(force["point"], [0, 0, 0], atol=1e-6)
+        words = tab.run("document.getElementById('impact-table').textContent")
+        assert "ball ~ floor" in words
+        assert tab.run("document.getElementById('impact-title').textContent") == (
+            f"Last impact, number {tab.run(told)}"
+        )
+        legend = tab.run("document.getElementById('legend').textContent")
+        assert "impulse, longest" in legend
+        assert "contact force, longest 9.81 N" in legend
+        assert "contact normal" in legend
+        assert tab.run("document.getElementById('gap-line').textContent").startswith("φ ")
+        assert tab.problems == []
+        tab.close()
+
+
+def test_what_leaves_the_picture_is_taken_in_again(browser):
+    with program(URDF / "double_pendulum.urdf", "--set", "shoulder=3.1") as (_, url):
+        tab = browser.open(url).ready()
+        until(lambda: tab.run("saltus.page.live.frames") > 1)
+        inside = """(() => {
+          const { clientWidth: w, clientHeight: h } = saltus.page.stage.canvas;
+          return saltus.page.motion.now.length > 0 && saltus.page.data.bodies.every((_, body) => {
+            const [x, y] = saltus.project(saltus.page.motion.now.slice(7 * body, 7 * body + 3));
+            return x > 0 && x < w && y > 0 && y < h;
+          });
+        })()"""
+        before = tab.run("saltus.page.bounds.box.min.z")
+        tab.run("saltus.page.live.wish({ do: 'speed', value: 5 })")
+        until(lambda: tab.run("saltus.page.bounds.box.min.z") < before - 0.3)  # it has fallen
+        until(lambda: tab.run("saltus.page.views.goal === null") and tab.run(inside))
         assert tab.problems == []
         tab.close()
 

@@ -162,7 +162,7 @@ def test_energies_and_gap_are_those_of_the_run(cradle_tab):
     words = cradle_tab.run("document.getElementById('energy-line').textContent")
     assert f"{run.total[row]:.4g} J" in words
     cradle_tab.seek(run.impacts["t"][0])
-    phi = cradle_tab.run("saltus.page.panel.gap[saltus.page.data.impacts.instant[0]]")
+    phi = cradle_tab.run("saltus.page.panel.gap.phi[saltus.page.data.impacts.instant[0]]")
     assert abs(phi) < 1e-9
     assert cradle_tab.run("document.getElementById('pair').selectedOptions[0].text") == (
         "ball_0 ~ ball_1"

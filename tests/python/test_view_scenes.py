@@ -73,6 +73,19 @@ def test_dark_is_dark(open_page):
     assert tab.picture()[:20].mean() > 200
 
 
+def test_shadows_are_drawn_where_they_are_asked_for(open_page):
+    builder = saltus.ModelBuilder("ball").add_floor().set_default_contact(restitution=1, friction=0)
+    builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, X=saltus.Pose((0, 0, 0.3)))
+    tab = open_page(saltus.simulate(builder.build(), duration=0.1))
+    assert not tab.run("document.getElementById('show-shadow').checked")  # no card draws here
+    without = tab.picture()
+    tab.click("#show-shadow")
+    darker = (without - tab.picture()).mean(axis=2)
+    assert (darker > 20).sum() > 500  # the shadow of the ball
+    assert abs(darker[:50]).max() < 5  # the sky has none
+    quiet(tab)
+
+
 def test_held_forces_are_drawn_where_they_act(open_page):
     model = saltus.ModelBuilder().add_body("box", saltus.Box((0.1,) * 3), mass=2.0,
                                            X=saltus.Pose((0, 0, 0.1))).add_floor()  # fmt: skip

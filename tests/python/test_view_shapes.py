@@ -68,7 +68,7 @@ def test_silhouettes_are_those_of_the_shapes(name, open_page):
     model = builder.build()
     pose = saltus.Pose.from_rpy(0.4, -0.7, 1.1, (1.0, 2.0, 3.0))
     run = saltus.simulate(model, q={"body": pose}, duration=0.01)
-    tab = open_page(run, (700, 500))
+    tab = open_page(run, (800, 560))
     tab.run(PLAIN)
     painted = np.argwhere(np.abs(tab.picture() - PAINT).max(axis=2) < 60)[:, ::-1] + 0.5
     X = model.shape_poses(run.q[:1], 0)[0]

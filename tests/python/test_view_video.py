@@ -54,6 +54,7 @@ def test_frames_are_the_page_at_their_times(run, open_page, tmp_path, monkeypatc
     duration, frames = tab.run(DECODE % (base64.b64encode(data).decode(), count, RATE))
     assert duration == pytest.approx((count - 1) / RATE, abs=1e-3)  # of the last frame, its start
     decoded = [pixels(base64.b64decode(frame)) for frame in frames]
+    tab.run("saltus.page.stage.sun.castShadow = true")  # videos always have shadows
     tab.run(f"saltus.page.setTheme('light'), saltus.page.beginVideo({list(SIZE)}, 1)")
     drawn = []
     for k in range(count):

@@ -7,12 +7,14 @@
 
 #include "saltus/export.hpp"
 
+/// Models of bodies, their motion and their impacts.
 namespace saltus {
 
 /// Bad input: a file, a name, a shape of array, a number that no model can have.
 /// The message names the culprit, its value and the alternatives. Python: `ModelError(ValueError)`.
 class SALTUS_EXPORT ModelError : public std::invalid_argument {
  public:
+  /// `kind` and `culprit` as in the members.
   explicit ModelError(const std::string& what, std::string kind = "", std::string culprit = "")
       : std::invalid_argument(what), element(std::move(kind)), name(std::move(culprit)) {}
   std::string element;  ///< kind of the culprit where it has a name: "link", "joint"
@@ -23,6 +25,7 @@ class SALTUS_EXPORT ModelError : public std::invalid_argument {
 /// Python: `StepError(RuntimeError)` with the same attributes.
 class SALTUS_EXPORT StepError : public std::runtime_error {
  public:
+  /// The members, in their order.
   StepError(const std::string& what, double time, double scaled_residual, int spent)
       : std::runtime_error(what), t(time), residual(scaled_residual), iterations(spent) {}
   double t;         ///< [s] where the step (or arc) began

@@ -80,6 +80,7 @@ def open_page(browser: Browser, run: saltus.Trajectory, size: tuple[int, int], v
         page = Path(folder) / "run.html"
         run.html(page)
         tab = browser.open(page.as_uri()).ready()
+    tab.run("saltus.page.stage.sun.castShadow = true; 0")  # also where no card draws
     tab.run(f"saltus.page.look({view!r}); saltus.page.beginVideo({list(size)}, 1); 0")
     return tab
 

@@ -38,6 +38,11 @@ def named_pairs(model: Model, names: Sequence[str]) -> list[ShapePair]:
     return found
 
 
+def shape_names(pair: str) -> frozenset[str]:
+    """Return the names of a pair's shapes; parts ("box[+++] ~ floor") count as their shapes."""
+    return frozenset(end.split("[")[0] for end in pair.split(" ~ "))
+
+
 def shapes_of_pairs(run: Recording, model: Model) -> dict[int, ShapePair]:
     """Return the shapes of each numbered pair that took an impulse, the most frequent first.
 
@@ -60,10 +65,18 @@ def shapes_of_pairs(run: Recording, model: Model) -> dict[int, ShapePair]:
 def pairs_of_run(run: Recording, model: Model) -> list[ShapePair]:
     """Return pairs of shapes: those that met, the most frequent first, then others if few."""
     pairs = {frozenset(pair): pair for pair in shapes_of_pairs(run, model).values()}
-    if model.n_pairs <= MOST_LISTED:
-        for each in model.pairs:
-            pairs.setdefault(frozenset((each.a, each.b)), (each.a, each.b))
+    for pair in pairs_of_model(model):
+        pairs.setdefault(frozenset(pair), pair)
     shapes = [placed.shape for placed in model.shapes]
+    return [(a, b) for a, b in pairs.values() if has_gap(shapes[a], shapes[b])]
+
+
+def pairs_of_model(model: Model) -> list[ShapePair]:
+    """Return the pairs of shapes that a model watches and that have a gap, if they are few."""
+    if model.n_pairs > MOST_LISTED:
+        return []
+    shapes = [placed.shape for placed in model.shapes]
+    pairs = {frozenset((each.a, each.b)): (each.a, each.b) for each in model.pairs}
     return [(a, b) for a, b in pairs.values() if has_gap(shapes[a], shapes[b])]
 
 

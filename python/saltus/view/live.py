@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from saltus._core import Model, ModelError, State, StepError, Stepper
+from saltus.view.events import Events
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.parts import Parts
 from saltus.view.pull import Pull, force_of
@@ -50,14 +51,14 @@ class Live:
             for s in self.sliders
         ]
         self.scene["controls"] = controls_of(model)
+        self.events = Events(model, np.asarray(state.q), h)
+        self.scene["gaps"]["pairs"] = self.events.pairs
         self.playing = True
         self.speed = 1.0
         self.pull: Pull | None = None
         self.pulled = ""  # name of its link
         self.control = np.zeros(model.n_u)
         self.problem = ""
-        self.impulses: list[list[Any]] = []
-        self.held: list[list[Any]] = []  # forces of the step just made
         self.lock = threading.Lock()
         self.asking = threading.Event()
         self.news = threading.Condition()
@@ -74,6 +75,7 @@ class Live:
             "control": self._control,
             "pull": self._pull,
             "release": lambda _: self._release(),
+            "gap": lambda asked: self.events.choose(int(asked["pair"])),
         }
 
     def page(self) -> str:
@@ -122,7 +124,6 @@ class Live:
         """Give all pages the state as it is."""
         with self.lock:
             text = self._frame()
-            self.impulses = []
             with self.news:  # within: an older frame must not come after a newer one
                 self.frame = (self.frame[0] + 1, text)
                 self.news.notify_all()
@@ -175,14 +176,7 @@ class Live:
             self.playing = False
             self.problem = f"stopped: {error}"
             return
-        for impact in self.stepper.report.impacts:
-            vectors = impact.lambdas[:, None] * impact.normals + impact.tangentials
-            for pair, point, vector in zip(impact.pairs, impact.points, vectors, strict=True):
-                self.impulses.append(["impulse", pair, point.tolist(), vector.tolist()])
-        self.held = []
-        for c in self.stepper.report.contacts:
-            force = (c.impulse * c.normal + c.tangential) / self.h
-            self.held.append(["force", c.pair, c.point.tolist(), force.tolist()])
+        self.events.add(self.stepper.report)
 
     def _frame(self) -> bytes:
         q = np.asarray(self.state.q)
@@ -197,7 +191,7 @@ class Live:
                 "speed": self.speed,
                 "values": [slider.get(q) for slider in self.sliders],
                 "control": self.control.tolist(),
-                "arrows": self.impulses[-200:] + self.held[:200],
+                **self.events.told(q),
                 "problem": self.problem,
                 "sent": time.time(),
             }
@@ -213,7 +207,7 @@ class Live:
 
     def _reset(self) -> None:
         self.state, self.pull, self.problem = self.start, None, ""
-        self.held = []
+        self.events.forget()
         self.control[:] = 0
 
     def _set_speed(self, asked: dict[str, Any]) -> None:
@@ -226,7 +220,8 @@ class Live:
         slider = self.sliders[int(asked["slider"])]
         state = posture(self.model, self.state, slider, float(asked["value"]))
         Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
-        self.state, self.problem, self.held = state, "", []
+        self.state, self.problem = state, ""
+        self.events.forces = []
 
     def _control(self, asked: dict[str, Any]) -> None:
         value = float(asked["value"])

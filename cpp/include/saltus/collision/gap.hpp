@@ -18,7 +18,8 @@ struct Gap {
   Vec3 p_WB;      ///< [m] witness on b's surface
   Vec3 center_W;  ///< [m] P of theory section 7: the point of a's core, p_WA + n times its radius
   double d;       ///< [m] phi and both radii: from core to core along n, below 0 where they overlap
-  Patch a, b;     ///< the features; never of one direction that both are straight along
+  Patch a;        ///< the feature of a; never of one direction that both are straight along
+  Patch b;        ///< the feature of b
 };
 
 /// Second partials of phi for motions t = [w; u] of a against b, u the velocity of P, to which the

@@ -21,12 +21,15 @@
 
 namespace saltus {
 
+/// What an equality ties, see above.
 enum class LoopType { point, weld, distance, on_plane, coupling, prescribed };
 
 /// A displacement [rad | m], its rate and the rate of that at one time.
 struct PrescribedMotion {
-  double x, rate;
-  double acceleration = std::numeric_limits<double>::quiet_NaN();  ///< where nobody says
+  double x;     ///< [rad | m]
+  double rate;  ///< [rad/s | m/s]
+  /// [rad/s^2 | m/s^2], where somebody says
+  double acceleration = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// "point", "weld", ...
@@ -34,16 +37,18 @@ SALTUS_EXPORT std::string loop_type_name(LoopType type);
 /// Rows of h.
 SALTUS_EXPORT int rows_of(LoopType type);
 
+/// One loop, coupling or prescribed joint.
 struct Equality {
   /// A frame that moves with a joint's; joint -1: the world. Of a coupling the joint alone.
   struct End {
-    int joint = -1;
-    Pose X_JE = {};
+    int joint = -1;  ///< index in the tree
+    Pose X_JE = {};  ///< the frame in the joint's
   };
-  std::string name = {};
-  LoopType type = LoopType::point;
-  End a = {}, b = {};
-  double distance = 0;                                    ///< [m]
+  std::string name = {};            ///< of the loop; of a coupling or prescribed joint the joint's
+  LoopType type = LoopType::point;  ///< what it ties
+  End a = {};                       ///< what it ties
+  End b = {};                       ///< to what
+  double distance = 0;              ///< [m]
   std::vector<double> polynomial = {};                    ///< of a coupling, by rising powers
   std::function<PrescribedMotion(double t)> motion = {};  ///< of a prescribed joint
   double lock = 0;                                        ///< likewise, see locks_of
@@ -52,8 +57,8 @@ struct Equality {
 
 /// Frozen; written by build().
 struct EqualityModel {
-  std::vector<Equality> all;
-  int rows = 0;
+  std::vector<Equality> all;  ///< loops, then couplings, then prescribed joints
+  int rows = 0;               ///< of h, of all of them
 };
 
 /// By columns, each a vector in the space of velocities.
@@ -62,6 +67,7 @@ using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
 /// h and its gradients at one configuration.
 struct EqualityValues {
   EqualityValues() = default;
+  /// Sized for a model.
   SALTUS_EXPORT EqualityValues(int n_v, int rows);
   VecX h;      ///< (m) [m | rad]
   VecX size;   ///< (m) of the terms that h is a difference of, for rounding

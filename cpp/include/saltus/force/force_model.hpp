@@ -29,18 +29,22 @@ namespace saltus {
 struct Gear {
   int velocity;    ///< index in v
   int coordinate;  ///< the same coordinate in q
-  double ratio;
+  double ratio;    ///< of the coordinate's rate in l'
 };
 
+/// One motor, servo or other force that is affine in l and l', see above.
 struct Actuator {
-  std::string name;
-  std::vector<Gear> gears;
-  double gain = 1;
-  double bias = 0, bias_l = 0, bias_v = 0;
+  std::string name;                                         ///< of its control
+  std::vector<Gear> gears;                                  ///< what it moves
+  double gain = 1;                                          ///< of f by u
+  double bias = 0;                                          ///< of f, constant
+  double bias_l = 0;                                        ///< of f by l
+  double bias_v = 0;                                        ///< of f by l'
   double effort = std::numeric_limits<double>::infinity();  ///< [N m | N] of f
   double lower = -std::numeric_limits<double>::infinity();  ///< of u
-  double upper = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();   ///< likewise
 
+  /// Moves one coordinate.
   bool is_single() const { return gears.size() == 1; }
 };
 
@@ -49,10 +53,11 @@ struct ForceModel {
   VecX damping;   ///< (n_v) [N m s/rad | N s/m] >= 0; of a ball its three are equal
   VecX friction;  ///< (n_v) [N m | N] dry, 0 of balls
   VecX effort;    ///< (n_v) [N m | N] of all actuators of one coordinate; infinite where no limit
-  std::vector<Actuator> actuators;
-  std::vector<PointDamper> dampers;
-  std::vector<FunctionForce> functions;
+  std::vector<Actuator> actuators;       ///< in the order of the controls
+  std::vector<PointDamper> dampers;      ///< between points of bodies
+  std::vector<FunctionForce> functions;  ///< that users wrote
 
+  /// Numbers of a control.
   int n_u() const { return static_cast<int>(actuators.size()); }
   /// Actuators over several coordinates.
   int n_coupled() const;
@@ -75,33 +80,45 @@ struct AppliedWrench {
 
 /// What drives a model over a step.
 struct ForceInput {
-  VecX control;  ///< (n_u) or empty: 0
-  VecX qfrc;     ///< (n_v) [N m | N] or empty: 0
-  std::vector<AppliedWrench> wrenches;
+  VecX control;                         ///< (n_u) or empty: 0
+  VecX qfrc;                            ///< (n_v) [N m | N] or empty: 0
+  std::vector<AppliedWrench> wrenches;  ///< on bodies
 
+  /// True where more than controls is told.
   bool acts() const { return qfrc.size() > 0 || !wrenches.empty(); }
 };
 
 /// An actuator of one coordinate, side by side with the others: most are.
 struct SingleActuator {
-  int index, velocity, coordinate;
-  double ratio, gain, bias, bias_l, bias_v, effort, lower, upper;
+  int index;       ///< its number
+  int velocity;    ///< as in Gear, and so on as in Actuator
+  int coordinate;  ///< likewise
+  double ratio;    ///< likewise
+  double gain;     ///< likewise
+  double bias;     ///< likewise
+  double bias_l;   ///< likewise
+  double bias_v;   ///< likewise
+  double effort;   ///< likewise
+  double lower;    ///< likewise
+  double upper;    ///< likewise
 };
 
 /// Forces at one (q, v, u), with the slopes that Newton's method needs.
 struct ForceValues {
   ForceValues() = default;
+  /// Sized for a model.
   SALTUS_EXPORT ForceValues(const ForceModel& forces, int n_v);
 
-  VecX Q;         ///< (n_v) the sum
-  VecX size;      ///< (n_v) of the terms it is a sum of, for rounding
-  VecX Q_q, Q_v;  ///< (n_v) slopes of each by its own coordinate
-  MatX coupled;   ///< (n_v, r) gears of the actuators over several coordinates
-  VecX slope;     ///< (2 r) of these by l, by l'
-  VecX effort;    ///< (n_u) f of each actuator, after all limits
-  VecX rate;      ///< (n_u) l' of each
-  VecX damping;   ///< (n_v) Q of damping alone, dampers included
-  VecX single;    ///< (n_v) scratch: of single actuators before the joint's limit
+  VecX Q;        ///< (n_v) the sum
+  VecX size;     ///< (n_v) of the terms it is a sum of, for rounding
+  VecX Q_q;      ///< (n_v) slope of each by its own coordinate
+  VecX Q_v;      ///< (n_v) slope of each by its own velocity
+  MatX coupled;  ///< (n_v, r) gears of the actuators over several coordinates
+  VecX slope;    ///< (2 r) of these by l, by l'
+  VecX effort;   ///< (n_u) f of each actuator, after all limits
+  VecX rate;     ///< (n_u) l' of each
+  VecX damping;  ///< (n_v) Q of damping alone, dampers included
+  VecX single;   ///< (n_v) scratch: of single actuators before the joint's limit
   std::vector<SingleActuator> singles;  ///< as the model has them; written by the constructor
   std::vector<int> geared;              ///< the other actuators; likewise
   std::vector<ForceAnswer> answers;     ///< of the functions

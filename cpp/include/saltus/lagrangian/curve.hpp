@@ -19,15 +19,20 @@ namespace saltus {
 
 /// f and its derivatives at one x, and the integral of f from the first knot.
 struct CurveValue {
+  /// In the order of the text above.
   double integral, f, slope, second;
 };
 
+/// A spline, ready to be asked.
 struct Curve {
-  std::vector<double> x, y;      ///< knots, x ascending, at least two
+  /// Knots, x ascending, at least two.
+  std::vector<double> x, y;
   std::vector<double> second;    ///< (knots) f'' at them
   std::vector<double> integral;  ///< (knots) of f, from the first
+  /// f' of the lines beyond the ends.
   double first_slope, last_slope;
 
+  /// At any x.
   SALTUS_EXPORT CurveValue operator()(double at) const;
 };
 

@@ -12,8 +12,10 @@ namespace saltus {
 /// eta_i, and L_qq(i, j) that of L_q(i) along eta_j, which is not symmetric within a ball.
 struct LagrangianPartials {
   double value = 0;  ///< [J]
-  VecX L_q, L_v;     ///< (n_v)
-  MatX L_qq, L_vq;   ///< (n_v, n_v)
+  VecX L_q;          ///< (n_v)
+  VecX L_v;          ///< (n_v) the momenta
+  MatX L_qq;         ///< (n_v, n_v)
+  MatX L_vq;         ///< (n_v, n_v)
   MatX L_vv;         ///< (n_v, n_v) the mass matrix
 };
 
@@ -33,6 +35,7 @@ inline LagrangianPartials lagrangian(const Tree& tree, const MassModel& mass, co
                                      const VecRef& v) {
   return lagrangian(tree, pack(tree, mass), q, v);
 }
+/// The same for a tree that is used once.
 inline MatX mass_matrix(const Tree& tree, const MassModel& mass, const VecRef& q) {
   return mass_matrix(tree, pack(tree, mass), q);
 }

@@ -28,18 +28,19 @@ enum class InertiaCheck {
   as_given,  ///< moments may be anything; a warning tells of those that are impossible
 };
 
+/// A link, as add_link takes it.
 struct LinkSpec {
-  std::string name;
-  BodyInertia inertia = {};  ///< in the link's frame; not used of what cannot move
-  InertiaCheck check = InertiaCheck::strict;
-  double compensation = 0;  ///< part of its weight that something else carries
+  std::string name;                           ///< of the link
+  BodyInertia inertia = {};                   ///< in the link's frame; not used of what cannot move
+  InertiaCheck check = InertiaCheck::strict;  ///< what becomes of an impossible inertia
+  double compensation = 0;                    ///< part of its weight that something else carries
 };
 
 /// This joint's displacement is `multiplier * (displacement of joint) + offset`.
 struct Mimic {
-  std::string joint;
-  double multiplier = 1;
-  double offset = 0;
+  std::string joint;      ///< that is followed
+  double multiplier = 1;  ///< of its displacement
+  double offset = 0;      ///< [rad | m]
 };
 
 /// What of a joint acts in steps; the rest is kept as information.
@@ -51,33 +52,43 @@ enum class JointEffects : unsigned {
   motors = 8,    ///< actuators on it, and the effort they are limited to
   all = 15,
 };
+/// Both sets together.
 constexpr JointEffects operator|(JointEffects a, JointEffects b) {
   return static_cast<JointEffects>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
+/// Whether a set has one of them.
 constexpr bool has(JointEffects set, JointEffects one) {
   return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;
 }
 
+/// A joint, as add_joint takes it.
 struct JointSpec {
-  std::string name;
-  JointType type = JointType::revolute;
-  std::string parent, child;        ///< links
-  Pose X_PJ = {};                   ///< joint (= child link) frame in the parent link's frame
-  Vec3 axis = Vec3::UnitX();        ///< in the joint's frame, any length but 0
-  double pitch = 0;                 ///< [m/rad] helical only
-  std::optional<Mimic> mimic = {};  ///< one-coordinate joints only
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
+  std::string name;                      ///< of the joint
+  JointType type = JointType::revolute;  ///< how its child moves
+  std::string parent;                    ///< link
+  std::string child;                     ///< link
+  Pose X_PJ = {};                        ///< joint (= child link) frame in the parent link's frame
+  Vec3 axis = Vec3::UnitX();             ///< in the joint's frame, any length but 0
+  double pitch = 0;                      ///< [m/rad] helical only
+  std::optional<Mimic> mimic = {};       ///< one-coordinate joints only
+  double lower = -std::numeric_limits<double>::infinity();  ///< [rad | m] lowest displacement
+  double upper = std::numeric_limits<double>::infinity();   ///< [rad | m] highest
+  /// [rad/s | m/s] limit, for information
   double velocity = std::numeric_limits<double>::infinity();
+  /// [N m | N] limit of its actuators together
   double effort = std::numeric_limits<double>::infinity();
-  double damping = 0, friction = 0;
-  double armature = 0;             ///< [kg m^2 | kg] of a motor's rotor, as the joint feels it
-  double stiffness = 0, rest = 0;  ///< of a spring; [N m/rad | N/m], [rad | m]
-  double limit_restitution = 0;    ///< at its stops
-  JointEffects effects = JointEffects::all;
+  double damping = 0;            ///< [N m s/rad | N s/m]
+  double friction = 0;           ///< [N m | N] dry
+  double armature = 0;           ///< [kg m^2 | kg] of a motor's rotor, as the joint feels it
+  double stiffness = 0;          ///< [N m/rad | N/m] of a spring
+  double rest = 0;               ///< [rad | m] where it pulls no more
+  double limit_restitution = 0;  ///< at its stops
+  JointEffects effects = JointEffects::all;  ///< what of these acts
   /// Instead of stiffness and rest: the spring resists with `curve_f` at `curve_x` and a cubic
   /// spline between, of given slopes at its ends or natural ones (curve.hpp). Empty: none.
-  std::vector<double> curve_x = {}, curve_f = {};  ///< [rad | m], [N m | N]
+  std::vector<double> curve_x = {};
+  std::vector<double> curve_f = {};  ///< [N m | N] at each of curve_x [rad | m]
+  /// f' at both ends, where they are not natural
   std::optional<std::array<double, 2>> curve_slopes = {};
 };
 
@@ -86,20 +97,23 @@ inline constexpr std::array<const char*, 3> other_sources{"damping", "friction",
 
 /// A motor, a servo or any force that is affine in what it moves: force_model.hpp.
 struct ActuatorSpec {
-  std::string name;
-  std::vector<std::pair<std::string, double>> joints;  ///< of one coordinate each, with ratios
-  double gain = 1;
-  double bias = 0, bias_l = 0, bias_v = 0;
-  double effort = std::numeric_limits<double>::infinity();
+  std::string name;                                         ///< of the control
+  std::vector<std::pair<std::string, double>> joints;       ///< of one coordinate each, with ratios
+  double gain = 1;                                          ///< of f by u
+  double bias = 0;                                          ///< of f, constant
+  double bias_l = 0;                                        ///< of f by l
+  double bias_v = 0;                                        ///< of f by l'
+  double effort = std::numeric_limits<double>::infinity();  ///< [N m | N] limit of f
   double lower = -std::numeric_limits<double>::infinity();  ///< of the control
-  double upper = std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();   ///< likewise
 };
 
+/// A shape on a link, as add_shape and add_half_space take it.
 struct ShapeSpec {
-  std::string link;
-  std::string name;  ///< of a half-space; "" for shapes that are named after their link
-  Shape shape;
-  Pose X_LG;
+  std::string link;           ///< that carries it
+  std::string name;           ///< of a half-space; "" for shapes that are named after their link
+  Shape shape;                ///< its form and sizes
+  Pose X_LG;                  ///< its frame in the link's
   std::string material = {};  ///< of a half-space; "": that of its link, as all other shapes
   /// Of a half-space: with all that no set_contact is said of.
   std::optional<ContactProperties> contact = {};
@@ -111,39 +125,45 @@ enum class AdjacentLinks { excluded, watched };
 
 /// Which pairs are not watched, each by two names.
 struct FilterSpec {
+  /// Pairs of names.
   using Names = std::vector<std::pair<std::string, std::string>>;
-  Names links, bodies, groups;                  ///< of links; the same, half-spaces left aside
-  std::map<std::string, std::string> group_of;  ///< link -> group
-  AdjacentLinks adjacent = AdjacentLinks::excluded;
+  Names links;                                       ///< of links
+  Names bodies;                                      ///< of links, whose half-spaces stay watched
+  Names groups;                                      ///< of groups
+  std::map<std::string, std::string> group_of;       ///< link -> group
+  AdjacentLinks adjacent = AdjacentLinks::excluded;  ///< of links that a joint connects
 };
 
+/// What shapes are made of, and what happens between materials.
 struct MaterialSpec {
-  std::map<std::string, std::string> of_link;
+  std::map<std::string, std::string> of_link;                                ///< link -> material
   std::map<std::pair<std::string, std::string>, ContactProperties> contact;  ///< the lesser first
   std::optional<ContactProperties> standard;  ///< of all pairs that nothing else is said of
 };
 
+/// A whole model.
 struct ModelDescription {
-  std::string name, root;
-  std::string source;  ///< text it was read from; "" if built in code
-  Vec3 gravity = Vec3(0, 0, -9.81);
-  TreeSolver solver = TreeSolver::automatic;
-  std::vector<LinkSpec> links;  ///< the root first
-  std::vector<JointSpec> joints;
-  std::vector<ActuatorSpec> actuators;
-  std::vector<LoopSpec> loops;
-  std::vector<CouplingSpec> couplings;
-  std::vector<PrescribedSpec> prescribed;
-  std::vector<SpringSpec> springs;
-  std::vector<ForceSpec> forces;
-  std::vector<PotentialFunction> potentials;
-  std::vector<ShapeSpec> shapes;
-  std::vector<Visual> visuals;
-  FilterSpec filter;
-  MaterialSpec materials;
-  std::vector<StateSpec> states;
-  std::vector<SensorSpec> sensors;
-  std::vector<std::string> warnings;
+  std::string name;                           ///< of the model
+  std::string root;                           ///< the link that is fixed to the world
+  std::string source;                         ///< text it was read from; "" if built in code
+  Vec3 gravity = Vec3(0, 0, -9.81);           ///< [m/s^2]
+  TreeSolver solver = TreeSolver::automatic;  ///< how steps solve for velocities
+  std::vector<LinkSpec> links;                ///< the root first
+  std::vector<JointSpec> joints;              ///< in the order they were added
+  std::vector<ActuatorSpec> actuators;        ///< likewise, and so are all lists below
+  std::vector<LoopSpec> loops;                ///< beyond the tree
+  std::vector<CouplingSpec> couplings;        ///< of two joints
+  std::vector<PrescribedSpec> prescribed;     ///< joints that move as they are told
+  std::vector<SpringSpec> springs;            ///< between points
+  std::vector<ForceSpec> forces;              ///< functions of users
+  std::vector<PotentialFunction> potentials;  ///< likewise
+  std::vector<ShapeSpec> shapes;              ///< half-spaces among them
+  std::vector<Visual> visuals;                ///< what links look like
+  FilterSpec filter;                          ///< pairs that are not watched
+  MaterialSpec materials;                     ///< of links, and between them
+  std::vector<StateSpec> states;              ///< by name
+  std::vector<SensorSpec> sensors;            ///< by name
+  std::vector<std::string> warnings;          ///< what was understood but is not used
 };
 
 }  // namespace saltus

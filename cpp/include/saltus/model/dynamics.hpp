@@ -11,6 +11,7 @@
 
 namespace saltus {
 
+/// Arrays by rows.
 using RowsRef = Eigen::Ref<const MatX>;
 
 /// Poses of all links, (rows, links * 16): homogeneous matrices, each row by row.
@@ -29,8 +30,10 @@ SALTUS_EXPORT MatX momenta(const Model& model, const RowsRef& q, const RowsRef& 
                            const RowsRef& p_W);
 
 SALTUS_EXPORT MatX gravity_forces(const Model& model, const RowsRef& q);  ///< (rows, n_v)
+/// (rows, n_v), see Frames::inverse_dynamics.
 SALTUS_EXPORT MatX inverse_dynamics(const Model& model, const RowsRef& q, const RowsRef& v,
                                     const RowsRef& a, double t = 0);
+/// (rows, n_v), see Frames::accelerations.
 SALTUS_EXPORT MatX accelerations(const Model& model, const RowsRef& q, const RowsRef& v,
                                  const RowsRef& forces, double t = 0);
 

@@ -27,6 +27,7 @@ namespace saltus {
 /// @throws ModelError where the dense result would not fit into 1 GiB.
 SALTUS_EXPORT Gaps gaps_at(const Model& model, const Kinematics& kin);
 
+/// A workspace at one configuration, see above.
 class SALTUS_EXPORT Frames {
  public:
   /// At Model::neutral.
@@ -37,18 +38,24 @@ class SALTUS_EXPORT Frames {
   /// Moves to another configuration. `what` names it in messages.
   void set(const VecRef& q, const std::string& what = "q");
 
+  /// The model that it is of.
   const Model& model() const { return model_; }
   const VecX& q() const { return q_; }  ///< (n_q)
 
+  /// X_WF, the frame in the world.
   Pose pose(const AttachedFrame& frame) const;
+  /// X_WL of a link.
   Pose pose(int link) const { return pose(link_frame(model_, link)); }
+  /// X_WG of a shape.
   Pose shape_pose(int shape) const { return pose(shape_frame(model_, shape)); }
   /// Homogeneous matrices of all links (links, 16) and shapes (shapes, 16), each row by row.
   MatX all_poses() const;
+  /// The same of all shapes.
   MatX all_shape_poses() const;
 
   /// J (6, n_v) of a frame's origin; out is resized where it must be.
   void jacobian(const AttachedFrame& frame, MatX& out) const;
+  /// The same of a link's frame.
   MatX jacobian(int link) const;
   /// (3, n_v): the velocity of a point that is fixed to a link; p_L [m] in the link's frame.
   MatX jacobian(int link, const Vec3& p_L) const;
@@ -71,6 +78,7 @@ class SALTUS_EXPORT Frames {
   void accelerations(const VecRef& v, const VecRef& forces, VecX& out, double t = 0);
 
   Gaps gaps();  ///< as Model::gaps
+  /// M(q), (n_v, n_v).
   MatX mass_matrix() { return saltus::mass_matrix(model_->tree, model_->packed, q_); }
 
  private:

@@ -13,10 +13,12 @@
 
 namespace saltus {
 
+/// What happens where two materials meet.
 struct ContactProperties {
   double restitution = 1;  ///< e in [0, 1]: the rebound's part of the gap rate, u+ = -e u-
   double friction = 0;     ///< mu >= 0 (Coulomb): tangential by normal force, at most
 
+  /// Equal to the bit.
   bool operator==(const ContactProperties&) const = default;
 };
 
@@ -24,6 +26,7 @@ struct ContactProperties {
 SALTUS_EXPORT void check_properties(const ContactProperties& properties,
                                     const std::string& between);
 
+/// The materials of all shapes, and what happens between them.
 struct MaterialTable {
   /// (k) materials, the first that of shapes without one; floors with properties of their own have
   /// rows of their own, so that a name may be there twice.
@@ -31,6 +34,7 @@ struct MaterialTable {
   std::vector<int> of_shape;                  ///< (shapes) index in names
   std::vector<ContactProperties> contact{1};  ///< (k * k) row by row, symmetric
 
+  /// Of two shapes.
   const ContactProperties& between(int shape_a, int shape_b) const {
     return contact[static_cast<std::size_t>(of_shape[shape_a]) * names.size() +
                    static_cast<std::size_t>(of_shape[shape_b])];

@@ -19,6 +19,7 @@
 
 namespace saltus {
 
+/// How a joint lets its child move against its parent.
 enum class JointType {
   fixed,
   revolute,
@@ -32,10 +33,10 @@ enum class JointType {
 
 /// A rigid link: a frame that moves with a joint frame.
 struct Link {
-  std::string name;
-  int joint = -1;   ///< index in the tree; -1: fixed to the world
-  Pose X_JL;        ///< the link's frame in the joint's frame
-  double mass = 0;  ///< [kg] own mass
+  std::string name;  ///< of the link
+  int joint = -1;    ///< index in the tree; -1: fixed to the world
+  Pose X_JL;         ///< the link's frame in the joint's frame
+  double mass = 0;   ///< [kg] own mass
 
   BodyInertia inertia = {};  ///< own, in the link's frame
   int index = 0;             ///< in the model's links
@@ -47,30 +48,36 @@ enum class Unit { metre, radian, one };
 /// A number of q and what its joint is said to have. What of it acts is in ModelData::forces and
 /// among the pairs: JointEffects.
 struct Coordinate {
-  std::string name;   ///< the joint's name; `<joint>_x` ... for joints of several
-  std::string joint;  ///< name of the joint that it belongs to
-  Unit unit = Unit::radian;
-  double lower, upper;               ///< [rad | m] infinite where there is none
-  double velocity, effort;           ///< limits, infinite where there is none
-  double damping = 0, friction = 0;  ///< [N m s/rad | N s/m], [N m | N]
+  std::string name;          ///< the joint's name; `<joint>_x` ... for joints of several
+  std::string joint;         ///< name of the joint that it belongs to
+  Unit unit = Unit::radian;  ///< of this number
+  double lower;              ///< [rad | m] infinite where there is none
+  double upper;              ///< likewise
+  double velocity;           ///< [rad/s | m/s] limit, infinite where there is none
+  double effort;             ///< [N m | N] likewise
+  double damping = 0;        ///< [N m s/rad | N s/m]
+  double friction = 0;       ///< [N m | N] dry
 };
 
 /// A joint as its author named it, after multi-coordinate joints are composed.
 struct JointInfo {
-  std::string name;
-  JointType type;
-  std::string parent, child;     ///< links
+  std::string name;              ///< as its author named it
+  JointType type;                ///< how its child moves
+  std::string parent;            ///< link
+  std::string child;             ///< link
   std::vector<int> frames;       ///< joints of the tree, outermost last; none where fixed
   std::vector<int> coordinates;  ///< indices in q of those that move it
   std::vector<int> velocities;   ///< likewise in v and p
 
-  int index = 0;                      ///< in the model's joints
-  Pose X_PJ = {};                     ///< the joint's frame in the parent link's, at displacement 0
-  std::optional<Vec3> axis = {};      ///< unit, in the joint's frame; where it has one
-  double pitch = 0;                   ///< [m/rad] of a helical one
-  std::string mimics = {};            ///< the joint that it follows; "" of all others
-  double multiplier = 1, offset = 0;  ///< of one that follows, as in Mimic
-  double lower = 0, upper = 0;  ///< [rad | m] as its author gave them; infinite where there is none
+  int index = 0;                  ///< in the model's joints
+  Pose X_PJ = {};                 ///< the joint's frame in the parent link's, at displacement 0
+  std::optional<Vec3> axis = {};  ///< unit, in the joint's frame; where it has one
+  double pitch = 0;               ///< [m/rad] of a helical one
+  std::string mimics = {};        ///< the joint that it follows; "" of all others
+  double multiplier = 1;          ///< of one that follows, as in Mimic
+  double offset = 0;              ///< [rad | m] likewise
+  double lower = 0;               ///< [rad | m] as its author gave it; infinite where there is none
+  double upper = 0;               ///< likewise
 };
 
 /// Trees that are solved together: one, or equal ones side by side in lanes.
@@ -83,42 +90,46 @@ struct TreeSolution {
 
 /// A stop that a joint's limit is. It is a gap like that of two shapes: phi = side (q - bound).
 struct JointLimit {
-  std::string name;  ///< "elbow lower limit"
-  int joint;         ///< of the tree
-  int coordinate;    ///< in q
-  Stop stop;
-  double restitution = 0;
+  std::string name;        ///< "elbow lower limit"
+  int joint;               ///< of the tree
+  int coordinate;          ///< in q
+  Stop stop;               ///< its side and bound
+  double restitution = 0;  ///< e in [0, 1]
 };
 
 struct ModelDescription;
 struct Visual;
 
+/// All that a model holds; `model->tree` and so on.
 struct ModelData {
-  std::string name;
-  Tree tree;
-  MassModel mass;
-  PackedTree packed;  ///< tree and mass, for the kernels
-  ForceModel forces;
-  EqualityModel equalities;  ///< loops, then couplings
-  std::vector<Link> links;
-  std::vector<JointInfo> joints;
+  std::string name;                         ///< of the model
+  Tree tree;                                ///< its joints, of one degree each
+  MassModel mass;                           ///< its bodies' inertias, gravity, springs
+  PackedTree packed;                        ///< tree and mass, for the kernels
+  ForceModel forces;                        ///< damping, friction, motors
+  EqualityModel equalities;                 ///< loops, then couplings
+  std::vector<Link> links;                  ///< the root first
+  std::vector<JointInfo> joints;            ///< as their author named them
   std::vector<Coordinate> coordinates;      ///< (n_q)
   std::vector<std::string> velocity_names;  ///< (n_v) coordinates' names but for balls, and for
                                             ///< the free joints' `_vx` `_vy` `_vz`
-  std::vector<PlacedShape> shapes;
-  PairTable pairs;
+  std::vector<PlacedShape> shapes;          ///< in the order of their numbers
+  PairTable pairs;                          ///< that are watched
   /// Numbered as pairs are, from `first_limit` on, which is pairs.size() as it was built.
   std::vector<JointLimit> limits;
-  int first_limit = 0;
-  MaterialTable materials;
+  int first_limit = 0;                ///< number of the first
+  MaterialTable materials;            ///< of its shapes
   std::vector<std::string> warnings;  ///< what was understood but is not used
   std::string source;                 ///< text the model was read from; "" if built in code
   std::shared_ptr<const ModelDescription> description;  ///< what build() made it of
   /// True once the derivatives of its functions have been looked at; null where it has none.
   std::shared_ptr<std::atomic<bool>> has_checked_functions;
 
+  /// Anything can touch.
   bool has_gaps() const { return !pairs.empty() || !limits.empty(); }
+  /// A pair of this number is a joint's limit.
   bool is_limit(int pair) const { return pair >= first_limit; }
+  /// The limit that has this number among the pairs.
   const JointLimit& limit(int pair) const {
     return limits[static_cast<std::size_t>(pair - first_limit)];
   }
@@ -132,13 +143,20 @@ struct Gaps {
   VecX phi;                        ///< (m) [m] infinite where two parts do not face each other
   MatX phi_q;                      ///< (m, n_v)
   std::vector<MatX> phi_qq;        ///< (m) of (n_v, n_v)
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> normal, p_WA, p_WB;  ///< (m, 3)
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;  ///< (m, 3)
+  Rows normal;                                                             ///< unit, from b to a
+  Rows p_WA;  ///< [m] witness on a's surface
+  Rows p_WB;  ///< [m] witness on b's surface
 };
 
+/// A model: frozen, cheap to copy, the same for all threads.
 class SALTUS_EXPORT Model {
  public:
+  /// ModelBuilder::build does this.
   explicit Model(ModelData data) : data_(std::make_shared<const ModelData>(std::move(data))) {}
+  /// All that it holds.
   const ModelData* operator->() const { return data_.get(); }
+  /// All that it holds.
   const ModelData& operator*() const { return *data_; }
 
   int n_q() const { return data_->tree.n_q; }  ///< numbers in q: a ball has four
@@ -171,7 +189,9 @@ class SALTUS_EXPORT Model {
   VecX checked_q(const VecRef& q, const std::string& what) const;
 
   VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_v)
+  /// L and its partials, see LagrangianPartials.
   LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
+  /// M(q), (n_v, n_v).
   MatX mass_matrix(const VecRef& q) const;
   /// @throws ModelError where the dense result would not fit into 1 GiB.
   Gaps gaps(const VecRef& q) const;

@@ -14,20 +14,20 @@ namespace saltus {
 /// A homogeneous solid that moves: a link, its shape and the joint above it. The frames of the
 /// three are one.
 struct BodySpec {
-  std::string name;  ///< of the link
-  Shape shape;
+  std::string name;                    ///< of the link
+  Shape shape;                         ///< its form and sizes
   std::optional<double> mass = {};     ///< [kg] this or density; neither where the joint is fixed
   std::optional<double> density = {};  ///< [kg/m^3]
   Pose X = {};                         ///< in the parent link's frame, at displacement 0
-  JointType joint = JointType::floating;
-  std::string joint_name = {};  ///< "": the body's
-  std::string parent = {};      ///< link; "": the root
-  Vec3 axis = Vec3::UnitX();    ///< of a joint that has one, in the body's frame
+  JointType joint = JointType::floating;  ///< how it moves
+  std::string joint_name = {};            ///< "": the body's
+  std::string parent = {};                ///< link; "": the root
+  Vec3 axis = Vec3::UnitX();              ///< of a joint that has one, in the body's frame
 };
 
 /// The solid below a plane, fixed to the world, of a material of its own.
 struct FloorSpec {
-  std::string name = "floor";
+  std::string name = "floor";   ///< as in pair names
   Vec3 normal = Vec3::UnitZ();  ///< out of the solid, of any length but 0
   double offset = 0;            ///< [m] normal.x on the plane
   /// With all that no set_contact is said of; the default contact where there is none.
@@ -53,13 +53,17 @@ class SALTUS_EXPORT ModelBuilder {
   /// Goes on from what another builder gathered; its local checks are not made again.
   explicit ModelBuilder(ModelDescription description) : d_(std::move(description)) {}
 
+  /// [m/s^2]
   ModelBuilder& set_gravity(const Vec3& gravity);
+  /// Text that the model was read from, which it keeps.
   ModelBuilder& set_source(std::string text);
   /// How steps solve for velocities, on all trees: a matter of speed, answers differ by rounding.
   /// `automatic` goes by each tree's shape; Model::solvers tells what became of it.
   ModelBuilder& set_solver(TreeSolver solver);
 
+  /// A link that has no shape yet.
   ModelBuilder& add_link(const LinkSpec& link);
+  /// A joint between two links, which may be added later.
   ModelBuilder& add_joint(const JointSpec& joint);
   /// Shapes are named after their link, "#2" added for its second, and so on.
   ModelBuilder& add_shape(const std::string& link, const Shape& shape, const Pose& X_LG = {});
@@ -109,15 +113,20 @@ class SALTUS_EXPORT ModelBuilder {
   /// kv (control - v), of at most `effort`: the control is the rate to reach.
   ModelBuilder& add_velocity_servo(const std::string& name, const std::string& joint, double kv,
                                    double effort = no_bound);
+  /// Any force that is affine in what it moves.
   ModelBuilder& add_actuator(const ActuatorSpec& actuator);
+  /// [kg m^2 | kg] of a motor's rotor, as the joint feels it.
   ModelBuilder& set_armature(const std::string& joint, double armature);
   /// Of all coordinates of a planar joint, of the ball of a floating or spherical one.
   ModelBuilder& set_damping(const std::string& joint, double damping);
+  /// [N m | N] dry; of joints of one coordinate.
   ModelBuilder& set_friction(const std::string& joint, double friction);
+  /// [rad | m] Stops; infinite where there is none.
   ModelBuilder& set_limit(const std::string& joint, double lower, double upper,
                           double restitution = 0);
   /// e at the stops that the joint has.
   ModelBuilder& set_limit_restitution(const std::string& joint, double restitution);
+  /// V = stiffness (x - rest)^2 / 2; [N m/rad | N/m], [rad | m].
   ModelBuilder& add_joint_spring(const std::string& joint, double stiffness, double rest = 0);
 
   /// Holds two links together beyond the tree; simulate from a configuration that closes it
@@ -135,6 +144,7 @@ class SALTUS_EXPORT ModelBuilder {
   /// The same by a function of time. A model that has one cannot be sent elsewhere.
   ModelBuilder& set_prescribed(const std::string& joint,
                                std::function<PrescribedMotion(double t)> function);
+  /// Either, as PrescribedSpec says.
   ModelBuilder& set_prescribed(const PrescribedSpec& spec);
 
   /// A spring that resists with `f` at the displacements `x` [rad | m], ascending, and with a cubic
@@ -153,35 +163,43 @@ class SALTUS_EXPORT ModelBuilder {
   ModelBuilder& add_potential(const PotentialFunction& potential);
   /// What of these acts, of one joint or of all there are now.
   ModelBuilder& set_effects(const std::string& joint, JointEffects effects);
+  /// Of all joints there are now.
   ModelBuilder& set_effects(JointEffects effects);
 
   /// A state by name, see named_state.hpp. Joints are those there are now; joints that mimic others
   /// have no numbers of their own.
   ModelBuilder& add_state(const StateSpec& state);
+  /// What the model measures by name.
   ModelBuilder& add_sensor(const SensorSpec& sensor);
 
+  /// Adds to what Model tells as `warnings`.
   ModelBuilder& add_warning(std::string text);
 
   /// What was said of a link or joint, or ModelError with the names there are.
   const LinkSpec& link_spec(const std::string& name) const;
+  /// Likewise, of a joint.
   const JointSpec& joint_spec(const std::string& name) const;
   /// Says it anew: `change` gets a copy, which is checked as by add_link or add_joint, then kept.
   /// The text that a model was read from is forgotten, since it says something else.
   /// @throws ModelError where the name changes, too.
   ModelBuilder& change_link(const std::string& name, const std::function<void(LinkSpec&)>& change);
+  /// Likewise, a joint.
   ModelBuilder& change_joint(const std::string& name,
                              const std::function<void(JointSpec&)>& change);
   /// [kg] The centre of mass stays, and the inertia about it grows with the mass.
   ModelBuilder& set_mass(const std::string& link, double mass);
 
   void check() const;  ///< the checks of build() alone
+  /// The model, once all checks hold.
   Model build() const;
 
   /// The description once its local checks are made again: for what comes from elsewhere.
   /// @throws ModelError as the add_ and set_ that it was made by would.
   static ModelDescription checked(const ModelDescription& description);
 
+  /// What was understood but is not used.
   const std::vector<std::string>& warnings() const { return d_.warnings; }
+  /// What was gathered.
   const ModelDescription& description() const { return d_; }
 
  private:

@@ -8,10 +8,12 @@ namespace saltus {
 /// A frame fixed to a joint's frame: that of a link or of a shape.
 struct AttachedFrame {
   int joint = -1;  ///< -1: the world
-  Pose X_JF;
+  Pose X_JF;       ///< the frame in the joint's
 };
 
+/// Of a link, by its index.
 SALTUS_EXPORT AttachedFrame link_frame(const Model& model, int link);
+/// Of a shape, by its index.
 SALTUS_EXPORT AttachedFrame shape_frame(const Model& model, int shape);
 
 /// Homogeneous matrices X_WF, one a row of `q` (rows, n_q): (rows, 16), each row by row.

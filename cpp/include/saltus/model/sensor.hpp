@@ -25,10 +25,11 @@ enum class SensorKind {
   contactforce,   ///< [N] sum of the contact forces on a link, in the world's axes
 };
 
+/// A sensor, as add_sensor takes it.
 struct SensorSpec {
-  std::string name;
-  SensorKind kind = SensorKind::jointpos;
-  std::string of;          ///< the joint, the actuator, or the link that carries it
+  std::string name;                        ///< of the sensor
+  SensorKind kind = SensorKind::jointpos;  ///< what it measures
+  std::string of;                          ///< the joint, the actuator, or the link that carries it
   std::string other = {};  ///< of touch and contactforce: the link or half-space that counts; "":
                            ///< all that touches
   Pose X_LS = {};          ///< its frame in the link's

@@ -11,6 +11,7 @@ namespace saltus {
 SALTUS_EXPORT BodyInertia solid_sphere(double mass, double radius);
 /// The same of a box and of a cylinder along z, by the sizes of their shapes.
 SALTUS_EXPORT BodyInertia solid_box(double mass, const Vec3& half);
+/// The same of a cylinder along z.
 SALTUS_EXPORT BodyInertia solid_cylinder(double mass, double radius, double half_length);
 
 /// Of any shape, in its own frame. The centre of mass of a convex hull need not be the origin.

@@ -5,11 +5,13 @@
 
 namespace saltus {
 
+/// Time, coordinates and momenta.
 struct State {
   double t = 0;  ///< [s]
   VecX q;        ///< (n_q) [rad | m], of balls a unit quaternion x y z w
   VecX p;        ///< (n_v) [kg m^2 rad/s | kg m/s] conjugate momenta, p = L_v
 
+  /// Equal to the bit.
   bool operator==(const State& other) const { return t == other.t && q == other.q && p == other.p; }
 };
 

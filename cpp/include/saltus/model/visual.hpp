@@ -11,6 +11,7 @@
 
 namespace saltus {
 
+/// A surface.
 struct Triangles {
   std::vector<Vec3> vertices;             ///< [m]
   std::vector<std::array<int, 3>> faces;  ///< vertices, counterclockwise seen from outside
@@ -18,20 +19,21 @@ struct Triangles {
 
 /// A surface of triangles, shared between copies; never null in a model.
 struct TriangleMesh {
-  static constexpr const char* name = "mesh";
-  std::shared_ptr<const Triangles> triangles;
+  static constexpr const char* name = "mesh";  ///< visual_kind
+  std::shared_ptr<const Triangles> triangles;  ///< the surface
 };
 
 using Rgba = std::array<double, 4>;  ///< red, green, blue, opacity, each in [0, 1]
 
+/// What a link looks like, or a part of it.
 struct Visual {
-  static constexpr Rgba grey = {0.7, 0.7, 0.7, 1};
+  static constexpr Rgba grey = {0.7, 0.7, 0.7, 1};  ///< where a file names no colour
 
-  std::string link;
-  std::variant<Shape, TriangleMesh> shape;
-  Pose X_LG = {};  ///< its frame in the link's
-  Rgba rgba = grey;
-  std::string name = {};  ///< as the file has it; "" where it has none
+  std::string link;                         ///< that carries it
+  std::variant<Shape, TriangleMesh> shape;  ///< its form and sizes
+  Pose X_LG = {};                           ///< its frame in the link's
+  Rgba rgba = grey;                         ///< its colour
+  std::string name = {};                    ///< as the file has it; "" where it has none
 };
 
 /// "box", "mesh": the name of the shape that it is.

@@ -17,6 +17,7 @@ enum class OnFailure {
   stop,   ///< the batch stops and throws the run's error, with "run <index>: " before it
 };
 
+/// Of a batch: of each run, and of all together.
 struct BatchOptions {
   /// Of every run. `progress` is told the part of the whole batch, by the thread that called.
   SimulateOptions run = {};
@@ -24,15 +25,15 @@ struct BatchOptions {
   /// threads at once.
   std::vector<Policy> policies = {};
   int threads = 0;  ///< 0: as many as the machine runs at once. Bits do not depend on it.
-  OnFailure on_failure = OnFailure::go_on;
+  OnFailure on_failure = OnFailure::go_on;  ///< of one run
 };
 
 /// How one run went.
 struct RunOutcome {
-  std::vector<Impact> impacts;           ///< in order of time; `first` counts into `impulses`
-  std::vector<ContactImpulse> impulses;  ///< of all its impacts
-  std::vector<Settling> settlings;
-  std::vector<Fallback> fallbacks;
+  std::vector<Impact> impacts;            ///< in order of time; `first` counts into `impulses`
+  std::vector<ContactImpulse> impulses;   ///< of all its impacts
+  std::vector<Settling> settlings;        ///< in order of time
+  std::vector<Fallback> fallbacks;        ///< in order of time
   std::vector<std::string> certificates;  ///< (impacts) if StepOptions::certify
   /// As in Trajectory, if SimulateOptions::record_contacts; also of steps after the last row.
   std::optional<std::vector<RecordedContact>> contacts;
@@ -46,14 +47,20 @@ struct RunOutcome {
 /// Run i has the rows [i * rows, (i + 1) * rows) of q, v and p, and row i of the energies. Rows
 /// that a run did not reach are NaN. The first holds q and p also where a run never began.
 struct SALTUS_EXPORT BatchTrajectory {
-  Model model;
-  StepOptions options = {};
-  VecX t = {};                   ///< (rows) [s] the same for all runs
-  MatX q = {}, v = {}, p = {};   ///< (runs * rows, n_q), of v and p n_v
-  MatX control = {}, work = {};  ///< (runs * rows, n_u), (runs * rows, n_u + 3) likewise
-  MatX kinetic = {}, potential = {}, shadow = {};  ///< (runs, rows) [J] as in Trajectory
-  std::vector<RunOutcome> outcome = {};            ///< (runs)
+  Model model;                           ///< of all runs
+  StepOptions options = {};              ///< of all steps
+  VecX t = {};                           ///< (rows) [s] the same for all runs
+  MatX q = {};                           ///< (runs * rows, n_q)
+  MatX v = {};                           ///< (runs * rows, n_v)
+  MatX p = {};                           ///< (runs * rows, n_v)
+  MatX control = {};                     ///< (runs * rows, n_u) as in Trajectory
+  MatX work = {};                        ///< (runs * rows, n_u + 3) [J] as in Trajectory
+  MatX kinetic = {};                     ///< (runs, rows) [J]
+  MatX potential = {};                   ///< (runs, rows) [J]
+  MatX shadow = {};                      ///< (runs, rows) [J] as in Trajectory
+  std::vector<RunOutcome> outcome = {};  ///< (runs)
 
+  /// How many there are.
   int runs() const { return static_cast<int>(outcome.size()); }
   /// Run i alone (a copy), in the same bits as simulate gives it.
   /// @throws ModelError unless 0 <= i < runs()

@@ -9,6 +9,7 @@
 
 namespace saltus {
 
+/// Of a run: of its steps, and what is recorded.
 struct SimulateOptions {
   StepOptions step = {};         ///< of every step
   int record_every = 1;          ///< steps between recorded rows; the last is always one

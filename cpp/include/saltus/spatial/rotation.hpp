@@ -32,6 +32,7 @@ SALTUS_EXPORT Vec3 quaternion_log(const Quaternion& q);
 
 /// b and c of J(f), b' / t and c' / t.
 struct JacobianCoefficients {
+  /// Of J, and b' / t, c' / t.
   double b, c, b1, c1;
 };
 
@@ -45,6 +46,7 @@ SALTUS_EXPORT Mat3 left_jacobian_derivative(const Vec3& f, const Vec3& x);
 
 /// What corrects the momenta of a ball's arc: c1 = ((t/2) / sin(t/2) - 1) / t^2, c2 = tan(t/4) / t.
 struct ArcCoefficients {
+  /// Of `f`, t its length.
   double c1, c2;
 };
 

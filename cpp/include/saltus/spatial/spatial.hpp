@@ -11,21 +11,25 @@
 
 namespace saltus {
 
-using Vec3 = Eigen::Matrix<double, 3, 1>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1>;
-using Mat3 = Eigen::Matrix<double, 3, 3>;
+using Vec3 = Eigen::Matrix<double, 3, 1>;               ///< a point or a direction
+using Vec6 = Eigen::Matrix<double, 6, 1>;               ///< `[angular; linear]`
+using Mat6 = Eigen::Matrix<double, 6, 6>;               ///< of such
+using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1>;  ///< numbers of a model or a run
+using Mat3 = Eigen::Matrix<double, 3, 3>;               ///< a rotation or an inertia
+/// A table: rows lie in memory as they do in NumPy.
 using MatX = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using VecRef = Eigen::Ref<const VecX>;
+using VecRef = Eigen::Ref<const VecX>;  ///< an argument: a VecX, or a part of other numbers
 
 /// A rigid placement: `X_WB` takes coordinates in frame B to coordinates in frame W.
 struct Pose {
   Mat3 R = Mat3::Identity();  ///< rotation, columns are B's axes in W
   Vec3 p = Vec3::Zero();      ///< [m] B's origin in W
 
+  /// X_WB X_BC is X_WC.
   Pose operator*(const Pose& X_BC) const { return {R * X_BC.R, p + R * X_BC.p}; }
+  /// [m] A point of B, in W.
   Vec3 operator*(const Vec3& p_B) const { return p + R * p_B; }
+  /// X_BW.
   Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
@@ -36,9 +40,12 @@ inline Mat3 rotation_from_rpy(double roll, double pitch, double yaw) {
       .toRotationMatrix();
 }
 
+/// The angular part of a twist or wrench.
 inline auto angular(const Vec6& x) { return x.head<3>(); }
+/// The linear part.
 inline auto linear(const Vec6& x) { return x.tail<3>(); }
 
+/// Both parts together.
 inline Vec6 spatial(const Vec3& angular, const Vec3& linear) {
   Vec6 x;
   x.head<3>() = angular;
@@ -64,6 +71,7 @@ struct Inertia {
   Vec3 h = Vec3::Zero();  ///< [kg m] mass times centre of mass, from O
   Mat3 I = Mat3::Zero();  ///< [kg m^2] rotational inertia about O
 
+  /// Of both bodies together, about the same O.
   Inertia& operator+=(const Inertia& other) {
     mass += other.mass;
     h += other.h;

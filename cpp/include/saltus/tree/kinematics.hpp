@@ -25,11 +25,13 @@ struct JointMotion {
   double s = 0;           ///< [rad | m] displacement, 0 of a ball's  written by set_configuration
 };
 
+/// Where all joints are, and how they move.
 struct Kinematics {
   std::vector<JointMotion> joint;  ///< (n)
   std::vector<Vec3> origin;        ///< (n) [m] p_WO of the tree that joint i belongs to; by root
 
   Kinematics() = default;
+  /// Sized for a tree; poses are not set.
   explicit Kinematics(const Tree& tree) : joint(tree.parent.size()), origin(tree.parent.size()) {}
 
   /// Pose of joint frame i in the world; i = -1 is the world itself.

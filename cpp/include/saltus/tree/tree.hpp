@@ -18,12 +18,15 @@ namespace saltus {
 
 /// A unit screw about (or along) z.
 struct Joint {
+  /// How it moves.
   enum class Kind { revolute, prismatic, helical, ball };
-  Kind kind = Kind::revolute;
-  double pitch = 0;  ///< [m/rad] helical only: advance along the axis per radian
-  int axis = 0;      ///< ball only: 0, 1, 2; the third carries what the ball turns
+  Kind kind = Kind::revolute;  ///< of this joint
+  double pitch = 0;            ///< [m/rad] helical only: advance along the axis per radian
+  int axis = 0;                ///< ball only: 0, 1, 2; the third carries what the ball turns
 
+  /// Of any pitch, or a ball's.
   bool turns() const { return kind != Kind::prismatic; }
+  /// One of a ball's three.
   bool is_ball() const { return kind == Kind::ball; }
 };
 
@@ -31,14 +34,14 @@ struct Joint {
 /// for a ball, `multiplier * q[tree.coordinate[velocity]] + offset` (mimic joints share a
 /// velocity).
 struct Drive {
-  int velocity = 0;
-  double multiplier = 1;
-  double offset = 0;
+  int velocity = 0;       ///< index in v
+  double multiplier = 1;  ///< of the velocity
+  double offset = 0;      ///< [rad | m]
 };
 
 /// Three joints, `joint` the first, and where their numbers are.
 struct Ball {
-  int joint;
+  int joint;       ///< the first of the three
   int velocity;    ///< of the first axis; the others follow
   int coordinate;  ///< of the quaternion x y z w
 };
@@ -48,15 +51,16 @@ struct Tree {
   int n_q = 0;                  ///< numbers in q: a ball has four
   int n_v = 0;                  ///< numbers in v and p: a ball has three
   std::vector<int> coordinate;  ///< (n_v) index in q of what v moves; of a ball its quaternion's
-  std::vector<Ball> balls;
-  std::vector<int> parent;     ///< (n)
-  std::vector<Joint> joint;    ///< (n)
-  std::vector<Pose> X_PJ;      ///< (n) placement in the parent's frame at s = 0
-  std::vector<Drive> drive;    ///< (n)
-  std::vector<int> root;       ///< (n) the world's child above joint i (or i itself)
-  std::vector<int> reference;  ///< (n) valid at roots: the joint whose origin is O of that tree
-  bool one_to_one = true;      ///< drive[i] = {i, 1, 0} for all i: no mimic joints
+  std::vector<Ball> balls;      ///< in the order of their joints
+  std::vector<int> parent;      ///< (n)
+  std::vector<Joint> joint;     ///< (n)
+  std::vector<Pose> X_PJ;       ///< (n) placement in the parent's frame at s = 0
+  std::vector<Drive> drive;     ///< (n)
+  std::vector<int> root;        ///< (n) the world's child above joint i (or i itself)
+  std::vector<int> reference;   ///< (n) valid at roots: the joint whose origin is O of that tree
+  bool one_to_one = true;       ///< drive[i] = {i, 1, 0} for all i: no mimic joints
 
+  /// n
   int joints() const { return static_cast<int>(parent.size()); }
   bool is_ancestor(int i, int j) const {  ///< i is j or above j
     while (j > i) j = parent[j];

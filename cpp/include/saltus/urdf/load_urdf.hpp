@@ -65,6 +65,7 @@ enum class InertiaUse {
   from_shapes,
 };
 
+/// How a file is read.
 struct UrdfOptions {
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s^2]
   /// Where `package://name/rest` is looked up: a folder that holds `name`, or `name` itself. The
@@ -91,6 +92,7 @@ struct UrdfOptions {
   bool floor = false;
   /// Reads what links look like, Model::visuals; it takes time where they are meshes.
   bool visuals = true;
+  /// Where the inertias of links come from.
   InertiaUse inertia = InertiaUse::checked;
   /// Refuses what is wrong and else read with a warning, see above.
   bool strict = false;

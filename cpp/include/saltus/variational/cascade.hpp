@@ -17,9 +17,10 @@
 
 namespace saltus {
 
+/// Of one impact.
 struct CascadeOptions {
-  ImpactOrder order = ImpactOrder::fastest;
-  int max_impulses = 100000;
+  ImpactOrder order = ImpactOrder::fastest;  ///< which contact is next
+  int max_impulses = 100000;                 ///< more are an error
 };
 
 /// G = N M^-1 N^T by rows, without zeros: contacts on different bodies do not affect each other.
@@ -29,6 +30,7 @@ struct ContactMatrix {
   std::vector<double> value;     ///< likewise
   std::vector<double> diagonal;  ///< (m)
 
+  /// m
   int size() const { return static_cast<int>(diagonal.size()); }
 };
 
@@ -39,10 +41,12 @@ struct CascadeScratch {
 };
 
 /// Contact-space cascade in place: O(entries of a row) for each impulse.
+/// @param G (m, m)
 /// @param u (m) gap rates, in and out: after its impulse a contact has exactly -e u
 /// @param rest (m) epsilon_u >= 0: a contact with u >= -epsilon_u does not approach
 /// @param restitution (m) e in [0, 1] of each contact
 /// @param impulses appended: (index of contact, lambda) in order
+/// @param options order and bound; @param scratch is resized
 /// @return false if contacts still approach after max_impulses impulses
 SALTUS_EXPORT bool cascade(const ContactMatrix& G, Eigen::Ref<VecX> u, const VecRef& rest,
                            const VecRef& restitution, const CascadeOptions& options,
@@ -53,6 +57,7 @@ SALTUS_EXPORT bool cascade(const Eigen::Ref<const MatX>& G, Eigen::Ref<VecX> u, 
                            const VecRef& restitution, const CascadeOptions& options,
                            std::vector<Impulse>& impulses);
 
+/// What an impact does.
 struct ImpactOutcome {
   VecX v;                         ///< (n) velocity after
   std::vector<Impulse> impulses;  ///< `pair` is the row of N
@@ -61,6 +66,7 @@ struct ImpactOutcome {
 /// The continuous-time problem of the paper's section II, for any mass matrix and normals.
 /// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
 /// @param restitution (m) e in [0, 1] of each contact
+/// @param options order and bound
 /// @throws ModelError on shapes that do not match, NaN or infinite values, M not positive definite,
 ///         e outside [0, 1]; JammedError if the cascade does not end within max_impulses.
 SALTUS_EXPORT ImpactOutcome resolve_impact(const Eigen::Ref<const MatX>& M,

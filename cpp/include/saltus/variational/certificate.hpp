@@ -27,8 +27,9 @@ enum class ImpactKind {
   jammed,           ///< no velocity opens all gaps at once: impulses need not end
 };
 
+/// Whether the outcome of an impact is unique, and why.
 struct ImpactCertificate {
-  ImpactKind kind;
+  ImpactKind kind;  ///< what holds
   /// If unique, the groups of contacts that affect each other, larger ones first: "A3 x A1^2", or
   /// "plastic" if all e = 0; else empty.
   std::string type;
@@ -41,6 +42,7 @@ struct ImpactCertificate {
 /// "unique, A2, at most 3 impulses"
 SALTUS_EXPORT std::string describe(const ImpactCertificate& certificate);
 
+/// How exact angles are to be.
 struct CertificateOptions {
   /// An angle counts as pi/m if m theta / pi is 1 to this; also the error of v that this causes.
   double tolerance = 1e-9;

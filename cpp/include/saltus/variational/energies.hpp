@@ -5,8 +5,9 @@ namespace saltus {
 
 /// Energies of one state.
 struct Energies {
-  double kinetic, potential;  ///< [J]
-  double shadow;              ///< [J] H - h^2 kappa / 24, conserved to O(h^4) (theory, section 5)
+  double kinetic;    ///< [J]
+  double potential;  ///< [J]
+  double shadow;     ///< [J] H - h^2 kappa / 24, conserved to O(h^4) (theory, section 5)
 };
 
 }  // namespace saltus

@@ -37,29 +37,37 @@ struct ContactBlocks {
   /// impulse of at most this, either way. Empty: contacts alone.
   std::vector<double> bound = {};
 
-  /// W_ij = rates_i . responses_j^T by coordinates, of which a contact has those of one or two
-  /// bodies (trees). Empty where that is not known; then `block` alone says what W is.
+  /// The coordinates of a body (tree) that a contact is on, numbered in a row.
   struct Body {
-    int first = 0, count = 0;  ///< its coordinates are numbered in a row
+    int first = 0;  ///< number of the first
+    int count = 0;  ///< none where it is 0
   };
+  /// What W of a contact is made of.
   struct Factors {
-    std::array<Body, 2> body;
-    std::size_t begin = 0;  ///< of its 3 rows of body[0].count + body[1].count numbers each
+    std::array<Body, 2> body;  ///< the one or two that it is on
+    std::size_t begin = 0;     ///< of its 3 rows of body[0].count + body[1].count numbers each
   };
-  std::vector<Factors> factors = {};  ///< (m) or empty
-  std::vector<double> rates = {}, responses = {};
-  int coordinates = 0;  ///< numbers of all are below
+  /// (m) W_ij = rates_i . responses_j^T. Empty where that is not known; then `block` alone says
+  /// what W is.
+  std::vector<Factors> factors = {};
+  std::vector<double> rates = {};      ///< du/dv, of all contacts
+  std::vector<double> responses = {};  ///< dv/dp, likewise
+  int coordinates = 0;                 ///< numbers of all are below
 
+  /// [N s] of an entry that is a joint with dry friction; 0 of a contact.
   double bound_of(int i) const { return bound.empty() ? 0 : bound[static_cast<std::size_t>(i)]; }
+  /// m
   int size() const { return static_cast<int>(own.size()); }
 };
 
 /// One collision with friction.
 struct FrictionImpulse {
-  int contact;
-  Vec3 p;  ///< [N s] lambda, beta
+  int contact;  ///< its number
+  Vec3 p;       ///< [N s] lambda, beta
 };
 
+/// One collision after another, see above.
+/// @param W of all contacts; @param options order and bound; @param scratch is resized
 /// @param u (m) rates, in and out; @param impulses appended, in order
 /// @return false if contacts still approach after max_impulses impulses
 SALTUS_EXPORT bool collide(const ContactBlocks& W, const CascadeOptions& options,
@@ -68,20 +76,25 @@ SALTUS_EXPORT bool collide(const ContactBlocks& W, const CascadeOptions& options
 
 /// Block Gauss-Seidel (NSGS: Jourdan, Alart & Jean 1998) until the impulses change by rounding
 /// only.
+/// @param W of all contacts; @param most_sweeps more are not made
 /// @param u (m) rates after `p`, in and out; @param p (m) guess in, solution out
 /// @return number of sweeps; most_sweeps if the impulses still change
 SALTUS_EXPORT int settle(const ContactBlocks& W, int most_sweeps, std::vector<Vec3>& u,
                          std::vector<Vec3>& p);
 
+/// What an impact with friction does.
 struct FrictionOutcome {
-  VecX v;  ///< (n) velocity after
-  std::vector<FrictionImpulse> impulses;
+  VecX v;                                 ///< (n) velocity after
+  std::vector<FrictionImpulse> impulses;  ///< in order
 };
 
 /// `resolve_impact` with friction.
+/// @param M (n, n) positive definite; @param N (m, n) rows phi_q; @param v (n) velocity before
 /// @param T (2m, n) two rows a contact: the velocity of the points that touch, in two orthogonal
 /// unit tangents (one of them 0 for planar motion)
+/// @param restitution (m) e in [0, 1]
 /// @param friction (m) mu >= 0
+/// @param options order and bound
 /// @throws as resolve_impact
 SALTUS_EXPORT FrictionOutcome resolve_impact(const Eigen::Ref<const MatX>& M,
                                              const Eigen::Ref<const MatX>& N,

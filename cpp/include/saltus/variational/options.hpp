@@ -22,7 +22,7 @@ enum class ImpactLaw {
 
 /// A row of the table of laws, which is in terms/options.cpp.
 struct LawEntry {
-  ImpactLaw law;
+  ImpactLaw law;        ///< of this row
   const char* name;     ///< "nodal_energy"
   const char* meaning;  ///< for people, in a sentence
 };
@@ -43,10 +43,11 @@ enum class ImpactOrder {
   symmetric,
 };
 
+/// Of a step.
 struct StepOptions {
-  double h = 0.01;  ///< [s] time step
-  ImpactLaw law = ImpactLaw::nodal_energy;
-  ImpactOrder order = ImpactOrder::fastest;
+  double h = 0.01;                           ///< [s] time step
+  ImpactLaw law = ImpactLaw::nodal_energy;   ///< which energy an impact keeps
+  ImpactOrder order = ImpactOrder::fastest;  ///< which contact is next
   bool certify = false;  ///< reports for impacts on several contacts whether the outcome is unique
   ImpactFunction custom = {};  ///< the function that law = custom calls
   bool collisions = true;      ///< false: bodies pass through each other

@@ -12,6 +12,7 @@
 
 namespace saltus {
 
+/// Bounds of the search.
 struct OutcomesOptions {
   int max_outcomes = 1000;   ///< more raise a ModelError
   long max_states = 400000;  ///< velocities on the way, m numbers each; more raise a ModelError
@@ -20,6 +21,7 @@ struct OutcomesOptions {
   double tolerance = 1e-9;
 };
 
+/// All outcomes of one impact, and how far they are apart.
 struct ImpactOutcomes {
   /// Each with one order that leads to it, that of lowest indices; the first is ImpactOrder::index.
   std::vector<ImpactOutcome> outcomes;

@@ -26,9 +26,9 @@ struct ContactImpulse {
 
 /// All impulses at one instant.
 struct Impact {
-  double t;   ///< [s]
-  int first;  ///< its impulses are impulses[first, first + count), in order
-  int count;
+  double t;       ///< [s]
+  int first;      ///< its impulses are impulses[first, first + count), in order
+  int count;      ///< of its impulses
   int contacts;   ///< closed contacts
   ImpactLaw law;  ///< the law that was used
   bool fallback;  ///< nodal_energy replaced the chosen law (theory, section 5, warning a)
@@ -76,9 +76,9 @@ struct StepReport {
   /// [N s | N m s] what loops pushed in the step, those of impacts left aside; by the step h it is
   /// their mean force. Rows as in model->equalities.
   VecX loops;
-  std::vector<Impact> impacts;
-  std::vector<ContactImpulse> impulses;  ///< of impacts
-  std::vector<Settling> settlings;
+  std::vector<Impact> impacts;            ///< in order of time
+  std::vector<ContactImpulse> impulses;   ///< of impacts
+  std::vector<Settling> settlings;        ///< in order of time
   std::vector<Fallback> fallbacks;        ///< none as a rule
   std::vector<std::string> certificates;  ///< (impacts), "" of single contacts; if asked for
   /// Of pairs that were held closed, each once: the sum of its impulses in arcs and between them,

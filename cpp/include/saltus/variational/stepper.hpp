@@ -19,7 +19,9 @@ class SALTUS_EXPORT Stepper {
   /// @throws ModelError on an option outside its range.
   explicit Stepper(const Model& model, const StepOptions& options = {});
   ~Stepper();
+  /// Takes over its working memory.
   Stepper(Stepper&&) noexcept;
+  /// Takes over its working memory.
   Stepper& operator=(Stepper&&) noexcept;
 
   /// The state h later. `state` is not changed.
@@ -35,8 +37,11 @@ class SALTUS_EXPORT Stepper {
   /// Forgets all earlier steps: the next steps are bitwise those of a new Stepper.
   void forget();
 
+  /// Of the last step.
   const StepReport& report() const;
+  /// The copy that it steps.
   const Model& model() const;
+  /// As given.
   const StepOptions& options() const;
 
  private:

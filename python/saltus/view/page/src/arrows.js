@@ -5,7 +5,7 @@ import { ARROWS } from './colours.js';
 import { rowAt } from './motion.js';
 
 const MOST = 4000; // arrows drawn at once
-const SEEN = 0.15; // s of the clock on the wall that an impact's arrows stay
+export const SEEN = 0.15; // s of the clock on the wall that an impact's arrows stay
 const Z = new THREE.Vector3(0, 0, 1);
 
 // Instanced shafts and heads, drawn over everything: contacts lie between bodies.
@@ -85,68 +85,65 @@ export class Arrows {
     return found.reverse();
   }
 
+  // Draws what acts at a time of the run.
   place(time, speed) {
-    this.now = [];
-    const normals = [];
-    const impulses = [];
-    for (const i of this.impactsAt(time, speed)) this.addImpact(i, impulses, normals);
-    const forces = this.data.forces ? this.heldAt(time) : [];
-    this.impulse.set(this.shown.impulse ? impulses : []);
-    this.normal.set(this.shown.normal ? normals : []);
-    this.force.set(this.shown.force ? forces : []);
+    const impulses = this.impactsAt(time, speed).flatMap((i) => this.ofImpact(i));
+    this.draw([...impulses, ...(this.data.forces ? this.heldAt(time) : [])]);
   }
 
-  // Arrows that a program gives, in place of those of a run.
-  given(impulses, forces) {
-    this.now = [...impulses, ...forces];
-    for (const { kind, vector } of this.now) {
+  // Draws what a program tells; true if one is longer than all before, and the scale another.
+  given(list) {
+    const before = { ...this.largest };
+    for (const { kind, vector } of list) {
       this.largest[kind] = Math.max(this.largest[kind], Math.hypot(...vector));
     }
-    const arrow = ({ kind, point, vector }) => ({
-      at: new THREE.Vector3(...point),
-      along: new THREE.Vector3(...vector).multiplyScalar(this.size / (this.largest[kind] || 1)),
-      head: true,
-    });
-    const seen = ({ vector }) => vector.some((x) => x !== 0);
-    this.impulse.set(this.shown.impulse ? impulses.filter(seen).map(arrow) : []);
-    this.force.set(this.shown.force ? forces.filter(seen).map(arrow) : []);
+    this.draw(list);
+    return before.impulse !== this.largest.impulse || before.force !== this.largest.force;
   }
 
-  addImpact(i, impulses, normals) {
-    const { impacts, impulses: own } = this.data;
-    const scale = this.size / (this.largest.impulse || 1);
-    for (let k = impacts.first[i]; k < impacts.first[i + 1]; k++) {
-      const at = new THREE.Vector3().fromArray(own.point, 3 * k);
-      const vector = new THREE.Vector3().fromArray(own.vector, 3 * k);
-      if (!Number.isFinite(at.x) || vector.lengthSq() === 0) continue; // older files have no points
-      this.now.push({
-        kind: 'impulse', pair: own.pairs[own.pair[k]], point: at.toArray(), vector: vector.toArray(),
-      });
-      const along = vector.clone().multiplyScalar(scale);
-      impulses.push({ at, along, head: true }, { at, along: along.clone().negate(), head: true });
-      const normal = new THREE.Vector3().fromArray(own.normal, 3 * k).multiplyScalar(0.45 * this.size);
-      normals.push({ at: at.clone().sub(normal), along: normal.clone().multiplyScalar(2), head: false });
+  // list: [{ kind: 'impulse' or 'force', pair, point, vector, normal }]
+  draw(list) {
+    const acts = ({ point, vector }) => Number.isFinite(point[0]) && vector.some((x) => x !== 0);
+    this.now = list.filter(acts); // older files have no points
+    const arrows = { impulse: [], force: [], normal: [] };
+    for (const { kind, point, vector, normal } of this.now) {
+      const at = new THREE.Vector3(...point);
+      const along = new THREE.Vector3(...vector).multiplyScalar(this.size / this.largest[kind]);
+      arrows[kind].push({ at, along, head: true });
+      if (kind !== 'impulse') continue;
+      arrows.impulse.push({ at, along: along.clone().negate(), head: true });
+      const half = new THREE.Vector3(...normal).multiplyScalar(0.45 * this.size);
+      arrows.normal.push({ at: at.clone().sub(half), along: half.multiplyScalar(2), head: false });
     }
+    for (const kind in arrows) this[kind].set(this.shown[kind] ? arrows[kind] : []);
+  }
+
+  ofImpact(i) {
+    const { impacts, impulses: own } = this.data;
+    const found = [];
+    for (let k = impacts.first[i]; k < impacts.first[i + 1]; k++) {
+      found.push({ kind: 'impulse', pair: own.pairs[own.pair[k]], ...act(own, k) });
+    }
+    return found;
   }
 
   heldAt(time) {
-    const { t, first, point, vector, pairs, pair } = this.data.forces;
-    const scale = this.size / (this.largest.force || 1);
+    const { t, first, pairs, pair } = this.data.forces;
     // Forces of a row acted over the step that ends there.
     let row = rowAt(t, time);
     if (t[row] < time && row + 1 < t.length) row++;
     const found = [];
     for (let k = first[row]; k < first[row + 1]; k++) {
-      const at = new THREE.Vector3().fromArray(point, 3 * k);
-      const force = new THREE.Vector3().fromArray(vector, 3 * k);
-      if (force.lengthSq() === 0) continue;
-      this.now.push({
-        kind: 'force', pair: pairs[pair[k]], point: at.toArray(), vector: force.toArray(),
-      });
-      found.push({ at, along: force.multiplyScalar(scale), head: true });
+      found.push({ kind: 'force', pair: pairs[pair[k]], ...act(this.data.forces, k) });
     }
     return found;
   }
+}
+
+// Point, vector and, where it is stored, normal of the k-th of stored arrows.
+function act(own, k) {
+  const three = (all) => all && Array.from(all.subarray(3 * k, 3 * k + 3));
+  return { point: three(own.point), vector: three(own.vector), normal: three(own.normal) };
 }
 
 function largest(vectors) {

@@ -28,11 +28,7 @@ export function boundsOf(data, motion) {
     const pivots = Array.from({ length: motion.bodies }, track);
     for (let k = 0; k < rows; k++) {
       motion.set(motion.start + ((motion.end - motion.start) * k) / Math.max(rows - 1, 1));
-      items.forEach((item, i) => {
-        const X = matrixOf(item.pose, [1, 1, 1]);
-        if (item.body >= 0) X.premultiply(bodyMatrix(motion.now, item.body));
-        push(found[i], extent(item, X));
-      });
+      items.forEach((item, i) => push(found[i], extent(data, item, motion.now)));
       pivots.forEach((pivot, body) => {
         const p = new THREE.Vector3().fromArray(motion.now, 7 * body);
         push(pivot, new THREE.Box3(p, p));
@@ -42,17 +38,26 @@ export function boundsOf(data, motion) {
     for (const { low, high } of all) [...low, ...high].forEach((xs) => xs.sort((a, b) => a - b));
     return all;
   }
+}
 
-  // The box about an item in a pose.
-  function extent(item, X) {
-    const box = localBox(data, item);
-    if (data.geometries[item.geometry].type !== 'sphere') return box.applyMatrix4(X);
-    const half = box.max.clone(); // of an ellipsoid |R half|, row by row
-    const e = X.elements;
-    const wide = [0, 1, 2].map((k) => Math.hypot(e[k] * half.x, e[4 + k] * half.y, e[8 + k] * half.z));
-    const size = new THREE.Vector3(...wide).multiplyScalar(2);
-    return new THREE.Box3().setFromCenterAndSize(new THREE.Vector3().setFromMatrixPosition(X), size);
-  }
+// The box of all that moves, in these poses of the bodies.
+export function boxNow(data, poses) {
+  const box = new THREE.Box3();
+  for (const item of data.items) if (item.body >= 0) box.union(extent(data, item, poses));
+  return box;
+}
+
+// The box about an item.
+function extent(data, item, poses) {
+  const X = matrixOf(item.pose, [1, 1, 1]);
+  if (item.body >= 0) X.premultiply(bodyMatrix(poses, item.body));
+  const box = localBox(data, item);
+  if (data.geometries[item.geometry].type !== 'sphere') return box.applyMatrix4(X);
+  const half = box.max.clone(); // of an ellipsoid |R half|, row by row
+  const e = X.elements;
+  const wide = [0, 1, 2].map((k) => Math.hypot(e[k] * half.x, e[4 + k] * half.y, e[8 + k] * half.z));
+  const size = new THREE.Vector3(...wide).multiplyScalar(2);
+  return new THREE.Box3().setFromCenterAndSize(new THREE.Vector3().setFromMatrixPosition(X), size);
 }
 
 function push({ low, high }, box) {

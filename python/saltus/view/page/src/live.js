@@ -1,13 +1,16 @@
 // A page whose model is simulated while it is open: frames come in, wishes go out.
 
-import * as THREE from 'three';
+import { SEEN } from './arrows.js';
 import { $ } from './bar.js';
+import { boxNow } from './bounds.js';
 import { ICONS } from './icons.js';
-import { bodyMatrix } from './items.js';
+import { impactWords } from './panel.js';
+import { Recent } from './plots.js';
+import { Pull } from './pull.js';
 
-const WINDOW = 10; // s of the energies that are plotted
+const WINDOW = 10; // s that are plotted
 const PLOTS = 8; // plots drawn anew a second
-const SEEN = 150; // ms that an impulse's arrow stays
+const MANY = 60; // sliders; more are set as often as plots are drawn
 
 class Live {
   constructor(page) {
@@ -17,18 +20,39 @@ class Live {
     this.busy = false; // a wish is on its way
     this.waiting = []; // those that wait for it, in order
     this.drawn = 0;
-    this.impulses = [];
+    this.impulses = []; // whose arrows are seen, each until a time
+    this.told = 0; // number of the last impact that is known
+    this.waits = null; // the frame to be shown next
     this.take();
+    this.plots();
     this.sliders();
-    this.pulling();
+    this.pull = new Pull(page, (what) => this.wish(what));
     this.source = new EventSource('events');
-    this.source.onmessage = (event) => this.frame(JSON.parse(event.data));
+    this.source.onmessage = ({ data }) => this.newest(JSON.parse(data));
     this.source.onerror = () => {
       page.say('The program that simulates this page has ended.');
       this.source.close();
       clearTimeout(page.silence);
     };
     window.addEventListener('pagehide', () => this.source.close());
+  }
+
+  // Shows frames at most as fast as the screen draws: where that is slow the newest is shown, with
+  // the impacts of those that were not, and none waits for its turn.
+  newest(news) {
+    this.frames++;
+    const { waits } = this;
+    if (waits?.beginning === news.beginning) {
+      const first = news.impacts[0]?.number ?? Infinity;
+      news.impacts.unshift(...waits.impacts.filter(({ number }) => number < first));
+    }
+    this.waits = news;
+    if (waits) return;
+    requestAnimationFrame(() => {
+      const shown = this.waits;
+      this.waits = null;
+      this.frame(shown);
+    });
   }
 
   // Sends wishes one after another. Of a slider that moves the newest is kept.
@@ -57,7 +81,7 @@ class Live {
     const { page } = this;
     const { clock } = page;
     document.body.classList.add('live');
-    for (const id of ['previous', 'next', 'track', 'loop-box', 'impact-box', 'gap-box', 'save-video']) {
+    for (const id of ['previous', 'next', 'track', 'loop-box', 'save-video']) {
       $(id).hidden = true;
     }
     $('single').hidden = false;
@@ -74,10 +98,23 @@ class Live {
     page.motion.set = () => {};
     page.arrows.place = () => {};
     page.panel.impacts = () => {};
-    page.energies = { x: [], kinetic: [], potential: [], total: [] };
-    page.panel.energy = page.energies;
     page.motion.now.set(page.data.poses);
     if (window.innerWidth < 900) page.openPanel(false);
+  }
+
+  plots() {
+    const { page } = this;
+    page.energies = page.panel.energy = new Recent(WINDOW, 'kinetic', 'potential', 'total');
+    page.gap = page.panel.gap = new Recent(WINDOW, 'phi');
+    $('pair').onchange = () => this.wish({ do: 'gap', pair: Number($('pair').value) });
+    this.noImpact();
+  }
+
+  noImpact() {
+    this.told = 0;
+    this.impulses = [];
+    $('impact-title').textContent = 'Last impact';
+    this.page.panel.impactTable('none yet', []);
   }
 
   sliders() {
@@ -104,7 +141,6 @@ class Live {
 
   frame(news) {
     const { page } = this;
-    this.frames++;
     this.lags.push(Date.now() - 1000 * news.sent);
     if (this.lags.length > 600) this.lags.shift();
     const bytes = Uint8Array.from(atob(news.poses), (c) => c.charCodeAt(0));
@@ -114,112 +150,97 @@ class Live {
     Object.assign(clock, { time: news.t, playing: news.playing, speed: news.speed });
     if (changed) page.bar.changed();
     $('play').innerHTML ||= ICONS.pause;
-    this.values(this.inputs, news.values);
-    this.values(this.controls, news.control);
-    this.energies(news);
-    this.arrows(news.arrows);
+    this.numbers = news;
+    if (this.inputs.length <= MANY) this.values();
+    this.begin(news);
+    page.energies.add(news.t, news.kinetic, news.potential, news.kinetic + news.potential);
+    const fresh = this.impacts(news.impacts);
+    this.gap(news, fresh);
+    this.arrows(fresh, news.forces);
+    this.draw(news.t);
     if (news.problem && news.problem !== this.problem) page.say(news.problem);
     this.problem = news.problem;
-    this.line();
+    this.pull.line();
+    if (!this.pull.grip) page.views.ease(); // the mouse would leave the body
     page.dirty = true;
   }
 
-  values(inputs, values) {
-    values.forEach((value, i) => {
-      const { input, output, unit } = inputs[i];
+  values() {
+    const { values, control } = this.numbers;
+    const set = ({ input, output, unit }, value) => {
       if (!input.matches(':active')) input.value = value;
-      const text = `${value.toFixed(3)} ${unit}`.trim();
+      const text = `${value.toFixed(3).replace(/^-(0\.0*)$/, '$1')} ${unit}`.trim();
       if (output.textContent !== text) output.textContent = text;
-    });
+    };
+    this.inputs.forEach((slider, i) => set(slider, values[i]));
+    this.controls.forEach((slider, i) => set(slider, control[i]));
   }
 
-  energies({ t, kinetic, potential }) {
+  // Forgets what was before a reset.
+  begin({ beginning }) {
     const { page } = this;
-    const own = page.energies;
-    if (own.x.length && t < own.x.at(-1)) for (const name in own) own[name].length = 0; // a reset
-    if (own.x.at(-1) === t) for (const name in own) own[name].pop();
-    own.x.push(t);
-    own.kinetic.push(kinetic);
-    own.potential.push(potential);
-    own.total.push(kinetic + potential);
-    while (own.x[0] < t - WINDOW) for (const name in own) own[name].shift();
+    if (beginning === this.beginning) return;
+    this.beginning = beginning;
+    this.noImpact();
+    page.energies.forget();
+    page.gap.forget();
+    Object.assign(page.arrows.largest, { impulse: 0, force: 0 });
+    page.panel.legend();
+  }
+
+  // Returns the impacts that no frame before told, and shows the last of them as a table.
+  impacts(list) {
+    const fresh = list.filter(({ number }) => number > this.told);
+    if (!fresh.length) return fresh;
+    const { number, t, certificate, impulses } = fresh.at(-1);
+    this.told = number;
+    $('impact-title').textContent = `Last impact, number ${number}`;
+    this.page.panel.impactTable(impactWords(t, certificate), impulses);
+    return fresh;
+  }
+
+  // Adds the gap of the chosen pair; at its impacts it is 0, between two frames too.
+  gap({ t, gap: { pair, phi } }, fresh) {
+    const { gap } = this.page;
+    if (phi === null) return;
+    if (this.pair !== pair) {
+      this.pair = pair;
+      if (!$('pair').matches(':focus')) $('pair').value = pair;
+      gap.forget();
+    }
+    for (const impact of fresh) {
+      if (impact.closed.includes(pair) && impact.t > gap.x.at(-1)) gap.add(impact.t, 0);
+    }
+    gap.add(t, phi);
+  }
+
+  arrows(fresh, forces) {
+    const { page } = this;
     const now = performance.now();
-    if (now < this.drawn + 1000 / PLOTS) return;
+    const arrow = (kind) => ([pair, point, vector, normal]) => ({ kind, pair, point, vector, normal });
+    const added = fresh.flatMap(({ arrows }) => arrows.map(arrow('impulse')));
+    for (const each of added) each.until = now + 1000 * SEEN;
+    this.impulses = [...this.impulses.filter(({ until }) => until > now), ...added];
+    if (page.arrows.given([...this.impulses, ...forces.map(arrow('force'))])) page.panel.legend();
+  }
+
+  // Draws anew what takes time, less often than frames come.
+  draw(t) {
+    const { page } = this;
+    const now = performance.now();
+    clearTimeout(this.late);
+    const early = this.drawn + 1000 / PLOTS - now;
+    if (early > 0) {
+      this.late = setTimeout(() => this.draw(t), early); // no frame may come after this one
+      return;
+    }
     this.drawn = now;
-    Object.assign(page.clock, { start: Math.max(t - WINDOW, own.x[0]), end: Math.max(t, own.x[0] + 1) });
+    const start = Math.max(t - WINDOW, page.energies.x[0]);
+    Object.assign(page.clock, { start, end: Math.max(t, start + 1) });
+    if (this.inputs.length > MANY) this.values();
     page.panel.energyPlot.redraw(page.theme);
-  }
-
-  arrows(list) {
-    const now = performance.now();
-    this.impulses = this.impulses.filter(({ until }) => until > now);
-    const forces = [];
-    for (const [kind, pair, point, vector] of list) {
-      const arrow = { kind, pair, point, vector };
-      if (kind === 'impulse') this.impulses.push({ ...arrow, until: now + SEEN });
-      else forces.push(arrow);
-    }
-    this.page.arrows.given(this.impulses, forces);
-  }
-
-  // A press on a body pulls it; elsewhere it turns the view.
-  pulling() {
-    const { page } = this;
-    const { canvas } = page.stage;
-    const material = new THREE.LineBasicMaterial({ color: '#e8481c', depthTest: false });
-    this.thread = new THREE.Line(new THREE.BufferGeometry(), material);
-    this.thread.frustumCulled = false;
-    this.thread.renderOrder = 11;
-    this.thread.visible = false;
-    page.stage.scene.add(this.thread);
-    const plane = new THREE.Plane();
-    const to = (event) => {
-      const [w, h] = [canvas.clientWidth, canvas.clientHeight];
-      const at = new THREE.Vector2((2 * event.offsetX) / w - 1, 1 - (2 * event.offsetY) / h);
-      page.labels.ray.setFromCamera(at, page.stage.camera);
-      return page.labels.ray.ray.intersectPlane(plane, new THREE.Vector3());
-    };
-    const pull = (target) => {
-      if (!target) return;
-      this.grip.to = target;
-      this.line();
-      const { body, at } = this.grip;
-      this.wish({ do: 'pull', body, at: at.toArray(), to: target.toArray() });
-    };
-    // Before the camera's own listener, which is on the canvas.
-    $('picture').addEventListener('pointerdown', (event) => {
-      if (event.target !== canvas || event.button !== 0) return;
-      const found = page.labels.under(event.offsetX, event.offsetY);
-      if (!found || found.item.body < 0) return;
-      event.stopPropagation();
-      canvas.setPointerCapture(event.pointerId);
-      plane.setFromNormalAndCoplanarPoint(
-        page.stage.camera.getWorldDirection(new THREE.Vector3()),
-        found.point,
-      );
-      const inverse = bodyMatrix(page.motion.now, found.item.body).clone().invert();
-      this.grip = { body: found.item.body, at: found.point.clone().applyMatrix4(inverse) };
-      pull(found.point);
-    }, true);
-    canvas.addEventListener('pointermove', (event) => this.grip && pull(to(event)));
-    for (const name of ['pointerup', 'pointercancel']) {
-      canvas.addEventListener(name, () => {
-        if (!this.grip) return;
-        this.grip = null;
-        this.line();
-        this.wish({ do: 'release' });
-      });
-    }
-  }
-
-  // The line from the body to the mouse.
-  line() {
-    const { page, thread } = this;
-    thread.visible = Boolean(this.grip?.to);
-    if (!thread.visible) return;
-    const from = this.grip.at.clone().applyMatrix4(bodyMatrix(page.motion.now, this.grip.body));
-    thread.geometry.setFromPoints([from, this.grip.to]);
-    page.dirty = true;
+    page.panel.gapPlot.redraw(page.theme);
+    if (!this.pull.grip) page.views.widen(boxNow(page.data, page.motion.now));
   }
 }
 

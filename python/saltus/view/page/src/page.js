@@ -58,7 +58,7 @@ export class Page {
     const { title, summary, notices } = this.data;
     document.title = `${title} · saltus`;
     $('title').textContent = title;
-    $('summary').textContent = summary;
+    $('summary').textContent = summary.replace(/e-(\d)/g, 'e-\u2060$1'); // no line ends in a number
     for (const text of notices) {
       const item = document.createElement('li');
       item.textContent = text;
@@ -118,7 +118,8 @@ export class Page {
     if (this.filming) return;
     this.stage.fit();
     this.views.margin.top = Math.min(56, 0.15 * this.stage.canvas.clientHeight);
-    this.views.margin.bottom = 8;
+    // Where the page is narrow the legend would stand over bodies.
+    this.views.margin.bottom = 8 + (window.innerWidth <= 720 ? $('legend').offsetHeight : 0);
     if (this.views.preset) this.look(this.views.preset);
     else this.views.aim();
     this.bar.marks(this.theme);

@@ -6,11 +6,12 @@ import { Plot, energiesOf, short, valueAt } from './plots.js';
 
 const ROWS = 8; // impulses in the table
 
+// What each does; then, where they differ, the key and what it does while the model is simulated.
 const KEYS = [
   ['Space', 'play, pause'],
-  ['← →', 'a frame back, on'],
-  ['Shift ← →', 'the impact before, after'],
-  ['Home End', 'to the start, the end'],
+  ['← →', 'a frame back, on', '→', 'a step'],
+  ['Shift ← →', 'the impact before, after', null],
+  ['Home End', 'to the start, the end', null],
   ['[ ]', 'slower, faster'],
   ['1 2 3 4', 'corner, front, side, top'],
   ['F', 'the whole scene'],
@@ -25,18 +26,24 @@ export class Panel {
   constructor(page) {
     this.page = page;
     this.impact = null;
-    for (const [key, what] of KEYS) {
-      const term = document.createElement('dt');
-      const text = document.createElement('dd');
-      term.textContent = key;
-      text.textContent = what;
-      $('keys').append(term, text);
-    }
+    this.keys();
     this.energies();
     this.gaps();
     this.shown();
     this.cameras();
     this.legend();
+  }
+
+  keys() {
+    const live = this.page.data.mode === 'live';
+    for (const [key, what, liveKey = key, liveWhat = what] of KEYS) {
+      if (live && !liveKey) continue;
+      const term = document.createElement('dt');
+      const text = document.createElement('dd');
+      term.textContent = live ? liveKey : key;
+      text.textContent = live ? liveWhat : what;
+      $('keys').append(term, text);
+    }
   }
 
   energies() {
@@ -54,11 +61,11 @@ export class Panel {
     pairs.forEach((name, i) => $('pair').add(new Option(name, i)));
     const column = () => {
       const k = Number($('pair').value || 0);
-      return Array.from(data.t, (_, row) => phi[row * pairs.length + k]);
+      return { x: data.t, phi: Array.from(data.t, (_, row) => phi[row * pairs.length + k]) };
     };
-    this.gap = pairs.length ? column() : [];
+    this.gap = phi.length ? column() : { x: [], phi: [] };
     const rounding = 1e-6 * this.page.bounds.radius;
-    this.gapPlot = new Plot($('gap'), 'm', () => [{ x: data.t, y: this.gap }], clock, rounding);
+    this.gapPlot = new Plot($('gap'), 'm', () => [{ x: this.gap.x, y: this.gap.phi }], clock, rounding);
     $('pair').onchange = () => {
       this.gap = column();
       this.gapPlot.redraw(this.page.theme);
@@ -90,11 +97,12 @@ export class Panel {
         page.moved();
       };
     }
+    $('show-shadow').checked = page.stage.sun.castShadow;
     const live = page.data.mode === 'live';
     const { impulse, force } = page.arrows.largest;
     $('show-force').parentElement.hidden = !force && !live;
     $('show-impulse').parentElement.hidden = !impulse && !live;
-    $('show-normal').parentElement.hidden = !impulse;
+    $('show-normal').parentElement.hidden = !impulse && !live;
     $('show-thread').parentElement.hidden =
       !page.items.has('thread') && !page.items.has('thread of shapes');
     page.items.show('frame', false);
@@ -113,12 +121,10 @@ export class Panel {
   }
 
   legend() {
-    const { arrows, data } = this.page;
+    const { arrows } = this.page;
     const words = [];
     const unit = (value, symbol) => `${short(Number(value.toPrecision(3)))} ${symbol}`;
-    if (data.mode === 'live') {
-      words.push([ARROWS.impulse, 'impulse'], [ARROWS.force, 'contact force']);
-    } else if (arrows.largest.impulse) {
+    if (arrows.largest.impulse) {
       words.push([ARROWS.impulse, `impulse, longest ${unit(arrows.largest.impulse, 'N s')}`]);
       words.push([ARROWS.normal, 'contact normal']);
     }
@@ -148,18 +154,23 @@ export class Panel {
 
   // Numbers and cursors at the time now.
   place() {
-    const { data, clock, theme } = this.page;
+    const { clock, theme } = this.page;
     const { energy } = this;
-    const value = (y) => short(Number(valueAt(energy.x, y, clock.time).toPrecision(4)));
+    const [T, V, H] = ['kinetic', 'potential', 'total'].map((name) =>
+      valueAt(energy.x, energy[name], clock.time),
+    );
+    const rounding = 1e-12 * Math.max(Math.abs(T), Math.abs(V));
+    const value = (x) => (Math.abs(x) < rounding ? '0' : short(Number(x.toPrecision(4))));
     key($('energy-line'), theme.curves, [
-      ['kinetic', value(energy.kinetic)],
-      ['potential', value(energy.potential)],
-      ['total', `${value(energy.total)} J`],
+      ['kinetic', value(T)],
+      ['potential', value(V)],
+      ['total', `${value(H)} J`],
     ]);
     this.energyPlot.cursor();
-    if (data.gaps.pairs.length) {
-      const phi = valueAt(data.t, this.gap, clock.time);
-      key($('gap-line'), theme.curves, [['φ', `${short(Number(phi.toPrecision(4)))} m`]]);
+    if (this.gap.x.length) {
+      const phi = valueAt(this.gap.x, this.gap.phi, clock.time);
+      const touches = Math.abs(phi) < 1e-9 * this.page.bounds.radius; // a gap of rounding
+      key($('gap-line'), theme.curves, [['φ', `${touches ? 0 : short(Number(phi.toPrecision(4)))} m`]]);
       this.gapPlot.cursor();
     }
     this.impacts();
@@ -173,23 +184,31 @@ export class Panel {
     this.impact = i;
     const count = t.length;
     $('impact-title').textContent = i < 0 ? `Impacts: ${count}` : `Impact ${i + 1} of ${count}`;
-    const words = i < 0 ? [] : [`t = ${t[i].toFixed(6)} s`];
-    if (i >= 0 && certificates[i]) words.push(certificates[i]);
-    if (i < 0) words.push(count ? `the first at ${t[0].toFixed(6)} s` : 'none in this run');
-    $('impact-line').textContent = words.join('; ');
-    const table = $('impact-table');
-    table.hidden = i < 0;
-    const rows = [];
-    if (i >= 0) {
-      const { impulses } = data;
-      const last = Math.min(first[i + 1], first[i] + ROWS);
-      for (let k = first[i]; k < last; k++) {
-        rows.push([impulses.pairs[impulses.pair[k]], Number(impulses.lambda[k].toPrecision(4))]);
-      }
-      if (last < first[i + 1]) rows.push([`… ${first[i + 1] - last} more`, '']);
+    if (i < 0) {
+      this.impactTable(count ? `the first at ${t[0].toFixed(6)} s` : 'none in this run', []);
+      return;
     }
-    table.tBodies[0].replaceChildren(...rows.map(tableRow));
+    const { pairs, pair, lambda } = data.impulses;
+    const rows = Array.from(pair.subarray(first[i], first[i + 1]), (number, k) => [
+      pairs[number], lambda[first[i] + k],
+    ]);
+    this.impactTable(impactWords(t[i], certificates[i]), rows);
   }
+
+  // rows: [[pair, impulse]] of one impact.
+  impactTable(words, rows) {
+    $('impact-line').textContent = words;
+    const table = $('impact-table');
+    table.hidden = !rows.length;
+    const digits = (x) => (x < 1e-3 ? x.toExponential(3) : Number(x.toPrecision(4)));
+    const cells = rows.slice(0, ROWS).map(([pair, lambda]) => [pair, digits(lambda)]);
+    if (rows.length > ROWS) cells.push([`… ${rows.length - ROWS} more`, '']);
+    table.tBodies[0].replaceChildren(...cells.map(tableRow));
+  }
+}
+
+export function impactWords(t, certificate) {
+  return [`t = ${t.toFixed(6)} s`, certificate].filter(Boolean).join('; ');
 }
 
 function tableRow(cells) {

@@ -137,7 +137,7 @@ export class Plot {
     pen.scale(ratio, ratio);
     pen.strokeStyle = '#e8481c';
     pen.lineWidth = 1.5;
-    const at = this.x(this.clock.time);
+    const at = this.x(Math.min(this.clock.time, this.to)); // a live page draws curves now and then
     line(pen, at, PAD.top - 4, at, this.box.h - PAD.bottom + 4);
   }
 }
@@ -164,6 +164,31 @@ export function short(value) {
   const size = Math.abs(value);
   if (size >= 1e5 || size < 1e-3) return value.toExponential(0).replace('e+', 'e');
   return String(Number(value.toPrecision(4)));
+}
+
+// Values of the last seconds, for a program that goes on: { x, and a list of each name }.
+export class Recent {
+  constructor(span, ...names) {
+    this.span = span;
+    this.names = ['x', ...names];
+    this.forget();
+  }
+
+  forget() {
+    for (const name of this.names) this[name] = [];
+  }
+
+  // Adds values at a time; a time again replaces what was there.
+  add(t, ...values) {
+    const again = this.x.at(-1) === t;
+    [t, ...values].forEach((value, i) => {
+      const own = this[this.names[i]];
+      if (again) own.pop();
+      own.push(value);
+    });
+    const old = this.x.findIndex((time) => time >= t - this.span);
+    if (old > 0) for (const name of this.names) this[name].splice(0, old);
+  }
 }
 
 // Energies with two values at impacts, before and after: { x, kinetic, potential, total }.

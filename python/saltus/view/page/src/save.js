@@ -42,6 +42,7 @@ export async function doJob(page, job) {
   const send = (what, body) => fetch(`${job.url}/${what}`, { method: 'POST', body });
   try {
     document.body.classList.add('bare');
+    page.stage.sun.castShadow = true; // whatever it takes
     page.setTheme(job.theme);
     page.look(job.view);
     if (job.follow !== null) page.follow(job.follow);

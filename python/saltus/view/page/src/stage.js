@@ -3,6 +3,13 @@
 import * as THREE from 'three';
 import { THEMES } from './colours.js';
 
+// Whether no graphics card draws: shadows then take most of the time of a frame.
+function drawsInSoftware(gl) {
+  const asked = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = asked ? gl.getParameter(asked.UNMASKED_RENDERER_WEBGL) : '';
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class Stage {
   constructor(canvas, bounds, up) {
     try {
@@ -30,7 +37,7 @@ export class Stage {
     const from = up.clone().add(aside).normalize();
     this.sun.position.copy(centre).addScaledVector(from, 3 * r);
     this.sun.target.position.copy(centre);
-    this.sun.castShadow = true;
+    this.sun.castShadow = !drawsInSoftware(this.renderer.getContext());
     Object.assign(this.sun.shadow.camera, { left: -r, right: r, top: r, bottom: -r });
     Object.assign(this.sun.shadow.camera, { near: 0.5 * r, far: 6 * r });
     this.sun.shadow.mapSize.set(2048, 2048);

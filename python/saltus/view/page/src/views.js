@@ -11,6 +11,9 @@ const DIRECTIONS = {
   top: [0, -1e-4, 1],
 };
 
+const MOST_WIDE = 4; // times the size at the start that a scene may grow to
+const EASE = 0.15; // s in which the way that is left shrinks by e
+
 export class Views {
   constructor(stage, bounds, up) {
     this.stage = stage;
@@ -23,6 +26,7 @@ export class Views {
     this.controls = new OrbitControls(stage.camera, stage.canvas);
     this.controls.enableDamping = false;
     this.followed = null; // body
+    this.goal = null; // box that the scene grows to
     this.at = new THREE.Vector3();
     this.margin = { left: 0, right: 0, top: 0, bottom: 0 }; // px that panels cover
     this.preset = 'corner';
@@ -53,6 +57,28 @@ export class Views {
     this.controls.maxDistance = 40 * this.bounds.radius;
     this.aim();
     this.controls.update();
+  }
+
+  // Takes in what leaves the scene's box; not what flies away.
+  widen(box) {
+    const own = this.bounds.box;
+    if (box.isEmpty() || own.containsBox(box)) return;
+    const wide = own.clone().union(box);
+    if (wide.getSize(new THREE.Vector3()).length() < 2 * MOST_WIDE * this.bounds.radius) this.goal = wide;
+  }
+
+  // Goes a part of the way to a box that has grown, where the camera is that of a preset.
+  ease() {
+    const now = performance.now();
+    const part = 1 - Math.exp(-(now - (this.eased ?? now)) / (1000 * EASE));
+    this.eased = now;
+    if (!this.goal) return;
+    const own = this.bounds.box;
+    own.min.lerp(this.goal.min, part);
+    own.max.lerp(this.goal.max, part);
+    const left = own.min.distanceTo(this.goal.min) + own.max.distanceTo(this.goal.max);
+    if (left < 1e-3 * this.bounds.radius) this.goal = null;
+    if (this.preset && this.followed === null) this.look(this.preset);
   }
 
   // Distance at which all corners of the box are in the picture.
