@@ -119,7 +119,9 @@ void set_joint(const Document& document, const XMLElement& e, const Owner& owner
 /// Affine in the sum of ratio times displacement over its joints.
 void add_any_actuator(const Document& document, const XMLElement& e, const Owner& owner,
                       ModelBuilder& builder) {
-  ActuatorSpec spec{.name = owner.name, .gain = number(e, "gain", 1)};
+  ActuatorSpec spec;
+  spec.name = owner.name;
+  spec.gain = number(e, "gain", 1);
   const std::vector<double> ratios = numbers(document, e, owner, "ratios");
   std::istringstream words(attribute(e, "joints"));
   for (std::string joint; words >> joint;) {
