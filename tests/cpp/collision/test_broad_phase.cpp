@@ -106,6 +106,39 @@ TEST(BroadPhase, DropsNoPairThatCanTouch) {
   EXPECT_GT(dropped, all / 2);  // and it is of use
 }
 
+/// What clearances rest on: no gap changes by more than its shapes move, there and back.
+TEST(BroadPhase, NoGapChangesByMoreThanItsShapesMove) {
+  Random random(7);
+  for (int k = 0; k < 30; ++k) {
+    const World world = random_world(random);
+    BroadPhase bp = world.broad_phase();
+    const VecX q = random_coordinates(world.tree, random);
+    VecX dq(world.tree.n_v);
+    for (double& x : dq) x = random.uniform(-0.1, 0.1);
+    Kinematics kin(world.tree), other(world.tree);
+    set_configuration(world.tree, q, kin);
+    bound_motion(world.tree, kin, dq, bp);
+    for (const double s : {0.3, 1.0}) {
+      set_configuration(world.tree, moved(world.tree, q, s, dq), other);
+      for (const Pair& pair : world.pairs) {
+        if (pair.kind == PairKind::crossing) continue;  // theirs is no distance
+        const double change =
+            pair_gap(world.tree, other, pair).phi - pair_gap(world.tree, kin, pair).phi;
+        EXPECT_LE(std::abs(change), bp.motion[pair.a] + bp.motion[pair.b] + 1e-12);
+      }
+    }
+    const std::vector<double> there = bp.motion;
+    set_configuration(world.tree, moved(world.tree, q, 1, dq), other);
+    bound_motion(world.tree, other, -dq, bp);
+    for (const Pair& pair : world.pairs) {
+      if (pair.kind == PairKind::crossing) continue;
+      const double change =
+          pair_gap(world.tree, other, pair).phi - pair_gap(world.tree, kin, pair).phi;
+      EXPECT_LE(std::abs(change), bp.motion[pair.a] + bp.motion[pair.b] + 1e-12);
+    }
+  }
+}
+
 // Where the certified advance finds a hit, the pair must have been a candidate: the chain of the
 // two in the stepper.
 TEST(BroadPhase, KeepsEveryHitOfAChord) {

@@ -34,6 +34,18 @@ TEST(Slip, OneTangentOfAPlanarSceneLiesInItsPlaneExactly) {
   }
 }
 
+TEST(Slip, RoundingOfANormalAlongAnAxisDoesNotTurnItsTangents) {
+  const Tangents exact = tangents(Vec3::UnitZ(), tangent_axis(Vec3::UnitZ()));
+  for (const double x : {-1e-16, 0.0, 1e-12}) {
+    for (const double y : {-1e-12, 0.0, 1e-16}) {
+      const Vec3 n = Vec3(x, y, 1).normalized();
+      const Tangents t = tangents(n, tangent_axis(n));
+      EXPECT_LE((t.t0 - exact.t0).norm(), 1e-11);
+      EXPECT_LE((t.t1 - exact.t1).norm(), 1e-11);
+    }
+  }
+}
+
 /// d.(v_a - v_b) of the material points that are at P at q: where they are at q + dq.
 double moved(const Scene& scene, const Kinematics& at_q, const Vec3& P, const Vec3& d,
              const VecX& q) {

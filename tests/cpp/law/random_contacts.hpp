@@ -73,6 +73,31 @@ inline ContactsAtOnce random_contacts(const RandomContacts& of, std::mt19937& ra
   return out;
 }
 
+/// The same W by the coordinates of the bodies: rates R, responses R M^-1.
+inline void add_factors(ContactsAtOnce& c) {
+  const auto bodies = c.v.size() / 6;
+  const MatX responses = c.R * c.inverse;
+  c.W.coordinates = static_cast<int>(c.v.size());
+  for (Eigen::Index i = 0; i < c.R.rows() / 3; ++i) {
+    ContactBlocks::Factors f;
+    f.begin = c.W.rates.size();
+    std::size_t count = 0;
+    for (Eigen::Index b = 0; b < bodies; ++b) {
+      if (c.R.block(3 * i, 6 * b, 3, 6).isZero(0)) continue;
+      f.body.at(count++) = {static_cast<int>(6 * b), 6};
+    }
+    for (int row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < count; ++k) {
+        for (int x = 0; x < 6; ++x) {
+          c.W.rates.push_back(c.R(3 * i + row, f.body[k].first + x));
+          c.W.responses.push_back(responses(3 * i + row, f.body[k].first + x));
+        }
+      }
+    }
+    c.W.factors.push_back(f);
+  }
+}
+
 inline double kinetic_energy(const ContactsAtOnce& c, const VecX& v) {
   return 0.5 * v.dot(v.cwiseQuotient(c.inverse.diagonal()));
 }

@@ -76,6 +76,31 @@ TEST(Settle, WithFrictionUpToTwo) {
   }
 }
 
+/// Newton's matrix by the coordinates of bodies, in an order of its own, finds what that of W
+/// finds: without friction the rates are unique, with it the law says.
+TEST(Settle, ByBodiesAsByContacts) {
+  std::mt19937 random(4);
+  for (const int contacts : {9, 14, 22, 34, 60}) {
+    for (int trial = 0; trial < 16; ++trial) {
+      const double friction = trial % 2 * 0.7;
+      const RandomContacts of{contacts, 1 + trial % 4, trial % 3 * 1.0, friction, trial % 4 == 3};
+      ContactsAtOnce c = random_contacts(of, random);
+      PileScratch scratch;
+      std::vector<Vec3> u = c.u, p(c.u.size(), Vec3::Zero());
+      settle_for_sure(c.W, scratch, u, p);
+      add_factors(c);
+      std::vector<Vec3> v = c.u, q(c.u.size(), Vec3::Zero());
+      const Settled said = settle_for_sure(c.W, scratch, v, q);
+      EXPECT_LE(said.excess, small_residual) << contacts << " " << trial;
+      EXPECT_LE(miss(c, q), 1e-7) << contacts << " " << trial;
+      for (std::size_t i = 0; friction == 0 && i < u.size(); ++i) {
+        // both to a residual of 1e-9, by unlike masses (1e2)
+        EXPECT_NEAR(u[i][0], v[i][0], 1e-7) << contacts << " " << trial << " " << i;
+      }
+    }
+  }
+}
+
 /// Errors name the contact that is farthest from the law, wherever it is in the list.
 TEST(Settle, TheMostLawlessIsNamed) {
   std::mt19937 random(3);
