@@ -1,4 +1,4 @@
-"""What rests stays where it is and costs next to nothing; what closes slowly comes to rest there."""
+"""What rests stays where it is and costs next to nothing; what closes slowly rests where it meets."""
 
 from __future__ import annotations
 
@@ -103,7 +103,8 @@ def test_a_heap_takes_few_arcs():
         builder.add_half_space(f"wall_{normal}", normal, -0.2)
     for i in range(8):
         at = np.array([i % 2, i // 2 % 2, i // 4]) * 0.105 + rng.uniform(-0.002, 0.002, 3)
-        builder.add_body(f"ball_{i}", saltus.Sphere(0.05), mass=1, X=saltus.Pose(at + [0, 0, 0.1]))
+        at[2] += 0.1
+        builder.add_body(f"ball_{i}", saltus.Sphere(0.05), mass=1, X=saltus.Pose(at))
     model = builder.build()
     stepper, state, arcs = saltus.Stepper(model, h=0.01), model.state(), []
     for _ in range(60):
