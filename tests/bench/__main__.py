@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from tests.bench import batch, collisions, cradle, flops, page, peers, scenes, table, trep
+from tests.bench import batch, collisions, contact, cradle, flops, page, peers, scenes, table, trep
 from tests.bench.kernels import Programs, machine, versions
 
 # Pinocchio's headers take half a minute to compile.
@@ -80,6 +80,7 @@ def measure(quick: bool, seconds: float, rounds: int) -> dict:
         "rows": rows,
         "growth": flops.growth(rows),
         "impacts": impacts,
+        "contact": contact.measure(quick=quick),
         "collisions": collisions.measure(
             programs,
             seconds=0.002 if quick else seconds / 4,

@@ -1,4 +1,4 @@
-"""What rests stays where it is and costs next to nothing; what closes slowly rests where it meets."""
+"""What rests stays where it is and costs next to nothing; slow closings rest where they meet."""
 
 from __future__ import annotations
 

@@ -185,6 +185,7 @@ void PileScratch::reserve(std::size_t k) {
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
   for (auto* each : {&pivot, &ends, &reach}) each->reserve(3 * k);
+  spans.reserve(k);
   for (auto* each : {&body_first, &body_count, &column, &near, &queue}) each->reserve(2 * k);
   near_begin.reserve(2 * k + 1);
 }

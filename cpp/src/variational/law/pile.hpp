@@ -25,6 +25,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -53,11 +54,15 @@ struct PileScratch {
   // of one island with k contacts and r independent rates
   std::vector<double> scale, friction, rest, bound;  ///< (k)
   std::vector<int> first, last;  ///< (k) columns of L that the rows of a contact have
-  std::vector<int> pivot;        ///< (r) the rate that a column of L was made for
-  std::vector<double> W, L, K;   ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
-  std::vector<double> H, DL;     ///< (r, r) F', (3, r)
-  std::vector<int> ends;         ///< (r) where the entries of a row of H end
-  std::vector<int> reach;        ///< (r) likewise, of rows as they are eliminated
+  struct Span {
+    int first = 0, count = 0;
+  };
+  std::vector<std::array<Span, 2>> spans;  ///< (k) those of them that may be other than 0
+  std::vector<int> pivot;                  ///< (r) the rate that a column of L was made for
+  std::vector<double> W, L, K;             ///< (3 k, 3 k), (3 k, r), (3 k, r) by rows
+  std::vector<double> H, DL;               ///< (r, r) F', (3, r)
+  std::vector<int> ends;                   ///< (r) where the entries of a row of H end
+  std::vector<int> reach;                  ///< (r) likewise, of rows as they are eliminated
   // bodies of one island, in an order in which neighbours are near
   std::vector<int> body_of, column;          ///< (coordinates) number of its body; (bodies) column
   std::vector<int> body_first, body_count;   ///< (bodies)

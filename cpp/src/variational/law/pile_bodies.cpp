@@ -100,6 +100,7 @@ void PileIsland::take_factors() {
       }
       s_.first[i] = std::min(s_.first[i], to);
       s_.last[i] = std::max(s_.last[i], to + body.count);
+      s_.spans[i][from == 0 ? 0 : 1] = {to, body.count};
       from += body.count;
     }
   }

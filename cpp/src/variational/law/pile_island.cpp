@@ -43,6 +43,7 @@ void PileIsland::set_sizes() {
   s_.place.resize(static_cast<std::size_t>(W_.size()));
   for (auto* each : {&s_.scale, &s_.friction, &s_.rest, &s_.bound}) each->resize(k);
   for (auto* each : {&s_.first, &s_.last}) each->resize(k);
+  s_.spans.assign(k, {});
   for (auto* each : {&s_.u, &s_.p, &s_.q, &s_.base, &s_.trial}) each->resize(k);
   for (auto* each : {&s_.W, &s_.L, &s_.K}) each->resize(9 * k * k);
   s_.pivot.clear();
@@ -116,6 +117,7 @@ void PileIsland::factorize() {
       }
       for (int rate = 0; rate < 3; ++rate) add_rate(i, rate);
       s_.last[i] = r_;
+      s_.spans[i][0] = {s_.first[i], r_ - s_.first[i]};
     }
   }
   const auto r = static_cast<std::size_t>(r_);
@@ -158,10 +160,11 @@ double PileIsland::size_of_impulses() {
   Eigen::Map<Eigen::RowVectorXd> sum(s_.F.data(), r_);
   sum.setZero();
   for (int i = 0; i < k_; ++i) {
-    const int first = s_.first[i], n = s_.last[i] - first;
-    for (int rate = 0; rate < 3; ++rate) {
-      sum.segment(first, n) += s_.p[i][rate] * row_of_K(3 * i + rate).segment(first, n);
-    }
+    for_each_span(i, [&](int first, int n) {
+      for (int rate = 0; rate < 3; ++rate) {
+        sum.segment(first, n) += s_.p[i][rate] * row_of_K(3 * i + rate).segment(first, n);
+      }
+    });
   }
   return sum.norm();
 }
@@ -172,17 +175,21 @@ double PileIsland::set_F(double rho, const std::vector<double>& at, std::vector<
   Eigen::Map<Eigen::RowVectorXd> F(out.data(), r_);
   F = z;
   for (int i = 0; i < k_; ++i) {
-    const int first = s_.first[i], n = s_.last[i] - first;
     Vec3 a = s_.base[i];
-    for (int rate = 0; rate < 3; ++rate) {
-      a[rate] -= rho * row_of_L(3 * i + rate).segment(first, n).dot(z.segment(first, n));
-    }
+    for_each_span(i, [&](int first, int n) {
+      for (int rate = 0; rate < 3; ++rate) {
+        a[rate] -= rho * row_of_L(3 * i + rate).segment(first, n).dot(z.segment(first, n));
+      }
+    });
     s_.trial[i] = a;
     s_.q[i] = to_set(a, s_.friction[i], s_.bound[i]);
-    for (int rate = 0; rate < 3; ++rate) {
-      F.segment(first, n) -=
-          (s_.q[i][rate] - s_.p[i][rate]) * row_of_K(3 * i + rate).segment(first, n);
-    }
+    const Vec3 dp = s_.q[i] - s_.p[i];
+    if (dp.isZero(0)) continue;
+    for_each_span(i, [&](int first, int n) {
+      for (int rate = 0; rate < 3; ++rate) {
+        F.segment(first, n) -= dp[rate] * row_of_K(3 * i + rate).segment(first, n);
+      }
+    });
   }
   return F.norm();
 }

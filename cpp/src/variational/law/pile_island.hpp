@@ -49,6 +49,7 @@ class PileIsland {
     return {matrix.data() + static_cast<std::ptrdiff_t>(i) * stride_, stride_};
   }
   Row row_of_H(int c) { return {s_.H.data() + static_cast<std::ptrdiff_t>(c) * r_, r_}; }
+  Row row_of_DL(int a) { return {s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, r_}; }
   Row row_of_L(int i) { return row_of(s_.L, i); }
   Row row_of_K(int i) { return row_of(s_.K, i); }
   void set_sizes();
@@ -59,11 +60,20 @@ class PileIsland {
   void take_factors();
   void balance();
   void set_ends();
+  /// Calls f(first, count) for the columns of a contact.
+  template <class F>
+  void for_each_span(int i, const F& f) const {
+    for (const PileScratch::Span& span : s_.spans[i]) {
+      if (span.count > 0) f(span.first, span.count);
+    }
+  }
   void add_rate(int i, int rate);
   void feel(const std::vector<Vec3>& dp);
   PileResidual residual() const;
   double set_F(double rho, const std::vector<double>& z, std::vector<double>& F);
   void set_slope(double rho);
+  void set_row_slopes(double rho, const Mat3& D, int i, int first, int n);
+  void add_to_slope(int i, int c, int first, int n);
   bool solve_slope();
   void eliminate(int c, int end);
   int solve_round(double rho, bool& ended);

@@ -14,21 +14,32 @@ void PileIsland::set_slope(double rho) {
     Mat3 D;
     to_set(s_.trial[i], s_.friction[i], s_.bound[i], &D);
     if (D.isZero(0)) continue;
-    const int first = s_.first[i], n = s_.last[i] - first;
-    for (int a = 0; a < 3; ++a) {
-      Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
-      x.setZero();
-      for (int b = 0; b < 3; ++b) {
-        if (D(a, b) != 0) x += rho * D(a, b) * row_of_L(3 * i + b).segment(first, n);
+    for_each_span(i, [&](int first, int n) { set_row_slopes(rho, D, i, first, n); });
+    for_each_span(i, [&](int from, int count) {
+      for (int c = from; c < from + count; ++c) {
+        for_each_span(i, [&](int first, int n) { add_to_slope(i, c, first, n); });
       }
+    });
+  }
+}
+
+/// rho P' L of the contact's three rows, of these columns.
+void PileIsland::set_row_slopes(double rho, const Mat3& D, int i, int first, int n) {
+  for (int a = 0; a < 3; ++a) {
+    auto x = row_of_DL(a).segment(first, n);
+    x.setZero();
+    for (int b = 0; b < 3; ++b) {
+      if (D(a, b) != 0) x += rho * D(a, b) * row_of_L(3 * i + b).segment(first, n);
     }
-    for (int a = 0; a < 3; ++a) {
-      const Row x(s_.DL.data() + static_cast<std::ptrdiff_t>(a) * r_, n);
-      const Row y = row_of_K(3 * i + a);
-      for (int c = first; c < s_.last[i]; ++c) {
-        if (y[c] != 0) row_of_H(c).segment(first, n) += y[c] * x;
-      }
-    }
+  }
+}
+
+/// Row c of H += K^T times them.
+void PileIsland::add_to_slope(int i, int c, int first, int n) {
+  auto h = row_of_H(c).segment(first, n);
+  for (int a = 0; a < 3; ++a) {
+    const double y = row_of_K(3 * i + a)[c];
+    if (y != 0) h += y * row_of_DL(a).segment(first, n);
   }
 }
 
