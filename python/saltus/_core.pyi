@@ -1234,13 +1234,17 @@ class Model:
         forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
         | numpy.typing.ArrayLike
         | None = None,
+        *,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Accelerations: forward dynamics.
 
         Solves M(q) a + c(q, v) = forces + gravity_forces(q) + those of springs and potentials, c the forces
-        of motion alone. Contacts, limits, damping, friction, motors and forces that are functions do not
-        act. O(n) for deep trees.
+        of motion alone. Loops and couplings are kept closed and prescribed joints move as they are told:
+        the right side has A lambda besides, A the gradients of the loops, so that A^T a is what that takes.
+        Contacts, limits, damping, friction, motors and forces that are functions do not act. O(n) for deep
+        trees, and one solve more for each row of a loop.
 
         Parameters
         ----------
@@ -1250,6 +1254,8 @@ class Model:
             [rad/s | m/s] None: at rest.
         forces : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values, optional
             [N m | N] on the coordinates; of free and ball joints in the parent's axes.
+        t : float
+            [s] of prescribed motions.
 
         Returns
         -------
@@ -1259,9 +1265,10 @@ class Model:
         Raises
         ------
         ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
+            On an unknown name, a wrong shape, or a value that is not finite; where a loop is open at q, or
+            opens with v; where a joint moves by a function that does not say the acceleration.
         StepError
-            Where the mass matrix is singular.
+            Where the mass matrix is singular, or loops hold no single motion.
         """
     def actuator_forces(
         self,
@@ -1484,12 +1491,19 @@ class Model:
         a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
         | numpy.typing.ArrayLike
         | None = None,
+        *,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Forces that make given accelerations: inverse dynamics.
 
         M(q) a + c(q, v) - gravity_forces(q) less those of springs and potentials, by the recursion of
         Newton and Euler, O(n). At rest and without acceleration they are what holds the model up.
+
+        Where there are loops, many forces make these accelerations, and the loops take what they differ by.
+        Those that are returned are what loops do not take: M times accelerations that keep the loops
+        closed. Of prescribed joints they are 0, as what moves these has the rest. `accelerations` makes of
+        them the a that was given.
 
         Parameters
         ----------
@@ -1499,6 +1513,8 @@ class Model:
             [rad/s | m/s] None: at rest.
         a : array_like, shape (n_v,) or (rows, n_v), or mapping of names to values
             [rad/s^2 | m/s^2] the rates of v. None: none.
+        t : float
+            [s] of prescribed motions.
 
         Returns
         -------
@@ -1508,7 +1524,8 @@ class Model:
         Raises
         ------
         ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
+            On an unknown name, a wrong shape, or a value that is not finite; where a loop is open at q, or
+            opens with v or a; where a joint moves by a function that does not say the acceleration.
         """
     def jacobian(
         self,
@@ -2306,7 +2323,8 @@ class ModelBuilder:
         ------
         ModelError
             On a name that is taken; `build` on coordinates that do not exist. Steps where the function
-            returns something else, or numbers that are not finite.
+            returns something else, or numbers that are not finite, and the first one of a model where Q_q
+            or Q_v is not the derivative (`check_derivatives` looks at more places).
         """
     def add_group_exclusion(self, group_a: str, group_b: str) -> ModelBuilder:
         """
@@ -2593,7 +2611,8 @@ class ModelBuilder:
         ------
         ModelError
             On a name that is taken. Whatever asks for the potential, where a function returns another
-            shape, or numbers that are not finite.
+            shape, or numbers that are not finite; the first step of a model, and `equilibrium`, where
+            gradient or Hessian is not the derivative (`check_derivatives` looks at more places).
         """
     def add_sensor(
         self,
@@ -3065,8 +3084,9 @@ class ModelBuilder:
         times, values : array_like, shape (k,), optional
             [s] ascending, [rad | m]; k is 2 at least.
         function : callable, optional
-            function(t) returns the displacement [rad | m] and its rate. A model that has one cannot be
-            pickled, and files do not hold it.
+            function(t) returns the displacement [rad | m] and its rate, or the acceleration as well, which
+            `accelerations` and `inverse_dynamics` ask for. A model that has one cannot be pickled, and files
+            do not hold it.
 
         Returns
         -------
@@ -3229,6 +3249,8 @@ class Frames:
         forces: collections.abc.Mapping[str, numpy.typing.ArrayLike]
         | numpy.typing.ArrayLike
         | None = None,
+        *,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         As `Model.accelerations`, here.
@@ -3239,6 +3261,8 @@ class Frames:
             [rad/s | m/s]
         forces : array_like, shape (n_v,), or mapping of names to values, optional
             [N m | N]
+        t : float
+            [s] of prescribed motions.
 
         Returns
         -------
@@ -3272,6 +3296,8 @@ class Frames:
         a: collections.abc.Mapping[str, numpy.typing.ArrayLike]
         | numpy.typing.ArrayLike
         | None = None,
+        *,
+        t: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         """
         As `Model.inverse_dynamics`, here.
@@ -3282,6 +3308,8 @@ class Frames:
             [rad/s | m/s]
         a : array_like, shape (n_v,), or mapping of names to values
             [rad/s^2 | m/s^2]
+        t : float
+            [s] of prescribed motions.
 
         Returns
         -------

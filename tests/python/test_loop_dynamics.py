@@ -151,6 +151,29 @@ def test_the_rest_of_the_tree_is_what_loops_push(make, loop) -> None:
 
 
 @each_case
+def test_loops_stay_closed_to_second_order(make, loop) -> None:
+    """A^T a is minus the second difference of h along the motion at constant v."""
+    model = built(make, loop)
+    if loop is told:
+        pytest.skip("its h depends on time")
+    for seed in range(5):
+        state = closed(model, seed)
+        v = model.velocity(state)
+        a = model.accelerations(state.q, v)
+
+        def h(s: float, state=state, v=v) -> np.ndarray:
+            gaps = model.loop_gaps(model.integrate(state.q, s * v))
+            return np.concatenate([gaps[name] for name in model.loop_names])
+
+        step = 2e-3
+        pairs = [h(k * step) + h(-k * step) - 2 * h(0) for k in (1, 2)]
+        bend = (16 * pairs[0] - pairs[1]) / (12 * step**2)
+        needed = gradients(model, state.q, 0.0).T @ a
+        # step^4 of the sixth derivative along v, rounding 1e-16 / step^2
+        np.testing.assert_allclose(needed, -bend, rtol=0, atol=1e-7 * (1 + np.abs(bend).max()))
+
+
+@each_case
 def test_inverse_dynamics_are_the_forces_that_loops_do_not_take(make, loop) -> None:
     model, tree = built(make, loop), make().build()
     for seed in range(5):

@@ -178,7 +178,7 @@ def test_nothing_gains_energy_beyond_the_work_told(seed: int) -> None:
         joint, side = limit.replace(" limit", "").rsplit(" ", 1)
         bound = getattr(of.model.joint(joint), side)
         beyond = (run.q[:, of.model.coordinate(joint)] - bound) * (1 if side == "upper" else -1)
-        assert beyond.max() < 1e-10 * max(1.0, abs(bound))
+        assert beyond.max() < 1e-12 * max(1.0, abs(bound))
 
 
 def test_the_bits_are_the_same_alone_and_in_a_batch() -> None:
