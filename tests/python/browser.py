@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import base64
+import ctypes
 import io
 import json
 import os
+import signal
 import subprocess
+import sys
 import time
 import urllib.request
 from contextlib import suppress
@@ -23,6 +26,12 @@ WAIT = 60.0  # s until an answer counts as none; no assertion depends on it
 POSE = 1e-6  # [m | 1] poses are stored as float32, and drawn so: 6e-8 of 1 m each
 
 
+def end_with_parent() -> None:
+    """Have the kernel end this process where the tests are killed: a browser goes on drawing."""
+    death_signal = 1  # PR_SET_PDEATHSIG
+    ctypes.CDLL(None).prctl(death_signal, signal.SIGKILL)
+
+
 class Browser:
     """A running Chromium; `open` gives a tab."""
 
@@ -34,6 +43,7 @@ class Browser:
             [*command, "--remote-debugging-port=0", "about:blank"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
+            preexec_fn=end_with_parent if sys.platform == "linux" else None,
         )
         told = folder / "DevToolsActivePort"
         until(lambda: told.exists() and len(told.read_text().splitlines()) == 2)
