@@ -43,6 +43,7 @@ set(SALTUS_TEST_collision
   collision/test_gap_derivatives.cpp
   collision/test_gap_flat.cpp
   collision/test_hull.cpp
+  collision/test_motion_bounds.cpp
   collision/test_no_allocation.cpp
   collision/test_pair_table.cpp
   collision/test_parts.cpp

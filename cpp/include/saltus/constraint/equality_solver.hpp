@@ -16,7 +16,9 @@
 
 namespace saltus {
 
+/// See above; `factorize` once C and Y are written, then `meet` or `hold`.
 struct SALTUS_EXPORT EqualitySolver {
+  /// Of no loops.
   EqualitySolver() = default;
   /// With the model's locks.
   EqualitySolver(int n_v, const EqualityModel& model);
@@ -24,10 +26,12 @@ struct SALTUS_EXPORT EqualitySolver {
   /// (m) What has been added to J along A A^T, of a row that J may be singular without: it changes
   /// multipliers alone.
   VecX lock;
-  Columns C, Y;       ///< (n_v, m) written by who uses it
+  Columns C;          ///< (n_v, m) gradients of the rates; written by who uses it
+  Columns Y;          ///< (n_v, m) J^-1 A, likewise
   VecX mu;            ///< (m) of the last `meet`
   int weak_row = -1;  ///< of a rank that changes, where factorize failed; else -1
 
+  /// m
   int rows() const { return static_cast<int>(C.cols()); }
   /// Of S. @return false where its rank changes, or it holds no numbers
   bool factorize();

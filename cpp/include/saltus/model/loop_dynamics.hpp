@@ -14,13 +14,15 @@ namespace saltus {
 
 /// Workspace of models that have loops.
 struct LoopDynamics {
+  /// With room for all of the model's loops.
   explicit LoopDynamics(const ModelData& model);
 
-  Kinematics kin;
+  Kinematics kin;         ///< at q; written by set_loops
   EqualityValues values;  ///< written by set_loops, likewise:
   VecX needed;            ///< (m) what A^T a is
   EqualitySolver solver;  ///< of M and A; written by factorize_loops
-  VecX rates, column;     ///< scratch
+  VecX rates;             ///< (m) scratch
+  VecX column;            ///< (n_v) scratch
 };
 
 /// Writes values and needed at (q, v, t).

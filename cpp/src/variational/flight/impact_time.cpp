@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "variational/arc/closing_arc.hpp"
 #include "variational/flight/soft.hpp"
@@ -104,12 +103,25 @@ double root_on_path(const Scene& scene, const Pair& pair, const Bracket& b, cons
   return (lo + hi) / 2;
 }
 
+bool has_rim(const Pair& pair) {
+  return std::holds_alternative<Rim>(pair.kind) || std::holds_alternative<RimCrossing>(pair.kind);
+}
+
+/// Contacts hold the arc, and no rim, whose lowest point leaps where it passes level.
+bool has_smooth_path(const Pair& pair, const ArcWork& work) {
+  if (is_free(work) || work.line.use != LaunchLine::Use::none || has_rim(pair)) return false;
+  return std::none_of(work.rows.active.begin(), work.rows.active.end(), [&](int i) {
+    const Row& row = work.rows.row[i];
+    return !row.is_joint() && has_rim(*row.pair);
+  });
+}
+
 /// Of an arc that contacts hold, whose gap is closed at its end, b.hi, with f.start_v there.
-/// @return nothing where it comes to no end
-std::optional<ImpactTime> refine_on_path(const Scene& scene, const Pair& pair, Bracket& b,
-                                         const Node& node, Flight& f) {
+/// @return false where it comes to no end: the arc is that of before
+bool refine_on_path(const Scene& scene, const Pair& pair, Bracket b, const Node& node, Flight& f) {
   constexpr int most_arcs = 8;  // 3 or 4 are usual
   const double whole = b.hi;
+  f.before_v = f.work.arc.v;
   f.path.start();
   if (node.has_factors) f.path.add(0, node.v);
   if (b.lo > 0 && f.work.arc.tau == b.lo) f.path.add(b.lo, f.work.arc.v);
@@ -117,22 +129,22 @@ std::optional<ImpactTime> refine_on_path(const Scene& scene, const Pair& pair, B
   for (int k = 0; k < most_arcs; ++k) {
     const double tau = root_on_path(scene, pair, b, node, f);
     f.path.velocity(tau, f.work.arc.v);
-    if (!solve(scene, tau, node, f.work)) return ImpactTime::not_converged;
+    if (!solve(scene, tau, node, f.work)) break;
     const double phi = phi_at_end(scene, pair, f.work);
-    if (std::abs(phi) <= 1e-3 * pair.touch) return ImpactTime::found;
+    if (std::abs(phi) <= 1e-3 * pair.touch) return true;
     (phi > 0 ? b.lo : b.hi) = tau;
     if (b.hi - b.lo <= 4e-16 * whole) break;
     f.path.add(tau, f.work.arc.v);
   }
-  return std::nullopt;
+  f.work.arc.v = f.before_v;
+  return false;
 }
 
 ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, const Node& node,
                   Memory& memory, Flight& f) {
   if (refine_at_once(scene, pair, tau, b.hi, node, memory, f)) return ImpactTime::found;
-  if (!is_free(f.work) && f.work.line.use == LaunchLine::Use::none && b.hi_is_closed) {
-    if (const auto found = refine_on_path(scene, pair, b, node, f)) return *found;
-    tau = (b.lo + b.hi) / 2;
+  if (b.hi_is_closed && has_smooth_path(pair, f.work)) {
+    if (refine_on_path(scene, pair, b, node, f)) return ImpactTime::found;
   }
   const double touch = pair.touch;
   const double whole = b.hi;
