@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kit/random_trees.hpp"
 #include "numeric.hpp"
 
@@ -80,6 +82,12 @@ TEST(Equalities, NeededAccelerationsAreThoseOfDifferences) {
     Kinematics kin(tree);
     set_configuration(tree, random_tree.q, kin);
     set_velocity(tree, v, kin);
+    // a weld that is open by half a turn has two signs, and no difference across
+    const VecX h = values_at(tree, model, random_tree.q).h;
+    const bool turned = std::any_of(model.all.begin(), model.all.end(), [&](const Equality& e) {
+      return e.type == LoopType::weld && h.segment<3>(e.first + 3).norm() > 1.99;
+    });
+    if (turned) continue;
     VecX needed(model.rows), q(tree.n_q);
     set_needed_accelerations(tree, model, kin, v, 0, needed);
     // A'^T v, along the motion at constant v

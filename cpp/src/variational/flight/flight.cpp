@@ -130,6 +130,7 @@ void Skips::watch_again() {
 Flight::Flight(const Scene& scene)
     : work(scene), broad(scene.model.tree, scene.model.shapes, scene.model.pairs), path(scene) {
   if (scene.options.law == ImpactLaw::shadow_energy) meter.emplace(scene.model);
+  closing_contact = fresh_contact(scene);
   settlings.reserve(64);
   hits.reserve(64);
   for (VecX* x : {&dq, &start_v, &before_v, &n}) x->setZero(scene.model.tree.n_v);

@@ -36,7 +36,7 @@ void check_law(const ModelData& model, ImpactLaw law) {
 namespace {
 
 /// What is too large for arithmetic is told before it is a residual that is no number.
-void check_size(const VecX& x, const char* what) {
+void check_size(const VecRef& x, const char* what) {
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     if (std::abs(x[k]) <= most_number) continue;
     std::ostringstream text;
