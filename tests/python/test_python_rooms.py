@@ -58,6 +58,7 @@ ORDER = {
     ],
     "runs": [
         "shown",
+        "gradient",
         "trajectory",
         "batch_trajectory",
         "starts",
