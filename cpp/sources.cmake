@@ -14,6 +14,7 @@ set(SALTUS_SOURCES
   cpp/src/lagrangian/packed/ball_arc.cpp
   cpp/src/lagrangian/packed/ball_matrix.cpp
   cpp/src/lagrangian/packed/ball_place.cpp
+  cpp/src/lagrangian/packed/hessian.cpp
   cpp/src/lagrangian/packed/lu.cpp
   cpp/src/lagrangian/packed/matrix.cpp
   cpp/src/lagrangian/packed/own_terms.cpp
@@ -33,6 +34,7 @@ set(SALTUS_SOURCES
   # force
   cpp/src/force/force_function.cpp
   cpp/src/force/force_model.cpp
+  cpp/src/force/control_slopes.cpp
   # constraint
   cpp/src/constraint/equality.cpp
   cpp/src/constraint/equality_bend.cpp
@@ -158,11 +160,21 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/acceptance.cpp
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/lift.cpp
+  cpp/src/variational/step/record.cpp
   cpp/src/variational/step/start_checks.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/step_input.cpp
   cpp/src/variational/step/stepper.cpp
   cpp/src/variational/step/unlocated.cpp
+  # derivatives
+  cpp/src/derivatives/arc_derivative.cpp
+  cpp/src/derivatives/held_derivative.cpp
+  cpp/src/derivatives/impulse_derivative.cpp
+  cpp/src/derivatives/parameters.cpp
+  cpp/src/derivatives/program.cpp
+  cpp/src/derivatives/step_derivative.cpp
+  cpp/src/derivatives/verdict.cpp
+  cpp/src/derivatives/walk.cpp
   # rollout
   cpp/src/rollout/control.cpp
   cpp/src/rollout/batch.cpp
@@ -239,6 +251,8 @@ set(SALTUS_BINDING_SOURCES
   python/bindings/bind_stepper.cpp
   python/bindings/step_options.cpp
   python/bindings/bind_variational.cpp
+  # derivatives
+  python/bindings/bind_derivatives.cpp
   # rollout
   python/bindings/control.cpp
   python/bindings/bind_rollout.cpp

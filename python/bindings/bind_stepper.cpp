@@ -1,13 +1,6 @@
 // Variational floor: the stepper.
-#include <atomic>
-#include <mutex>
-#include <thread>
-
-#include "bindings.hpp"
-#include "control.hpp"
-#include "named_report.hpp"
 #include "saltus/variational/overlap.hpp"
-#include "saltus/variational/stepper.hpp"
+#include "shared_stepper.hpp"
 
 namespace saltus::bindings {
 namespace {
@@ -28,6 +21,8 @@ law : ImpactLaw, str or callable
 collisions, order, certify, max_iterations, max_impacts, max_halvings, max_impulses, rest,
 simultaneous
     As in `StepOptions`.
+record : bool
+    Whether steps record what `jvp`, `vjp` and `derivative` are made of.
 
 Raises
 ------
@@ -91,49 +86,6 @@ const Model& to_model(const Unchecked<Model>& model) {
                        "; saltus.load_urdf makes a Model of it");
 }
 
-/// Advancing releases the interpreter's lock, so a second thread could come in: the mutex. What a
-/// step asks (a law, a force, a motion) comes in by the same thread: that would wait for itself.
-struct SharedStepper {
-  Stepper stepper;
-  std::mutex mutex;
-  std::atomic<std::thread::id> owner;
-
-  /// The stepper for one call.
-  struct Turn {
-    explicit Turn(SharedStepper& of) : shared(of) {
-      if (shared.owner == std::this_thread::get_id()) {
-        throw ModelError(
-            "the stepper is in a step, which asks this function: it can neither advance it nor "
-            "read its report; another Stepper can");
-      }
-      shared.mutex.lock();
-      shared.owner = std::this_thread::get_id();
-    }
-    ~Turn() {
-      shared.owner = std::thread::id();
-      shared.mutex.unlock();
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-    SharedStepper& shared;
-  };
-
-  SharedStepper(const Model& model, const StepOptions& options) : stepper(model, options) {}
-
-  State advance(const State& state, const py::object& control, const Wrenches& forces,
-                const Velocities& qfrc) {
-    const ForceInput input = to_input(control, forces, qfrc, stepper.model());
-    const py::gil_scoped_release release;
-    const Turn turn(*this);
-    return stepper.advance(state, input);
-  }
-  NamedReport report() {
-    const py::gil_scoped_release release;
-    const Turn turn(*this);
-    return with_names(stepper.model(), stepper.report());
-  }
-};
-
 }  // namespace
 
 void bind_stepper(py::module_& m) {
@@ -147,17 +99,20 @@ void bind_stepper(py::module_& m) {
       },
       resolve_overlap_doc, py::arg("model"), py::arg("q"));
   bind_report(m);
+  bind_derivative_types(m);
   using S = SharedStepper;
   const StepOptions o;
-  py::class_<S>(m, "Stepper", stepper_doc)
+  py::class_<S> stepper(m, "Stepper", stepper_doc);
+  stepper
       .def(py::init([](const Unchecked<Model>& model, double h, const LawChoice& law,
                        bool collisions, const Choice<ImpactOrder>& order, bool certify,
                        int max_iterations, int max_impacts, int max_halvings, int max_impulses,
-                       double rest, double simultaneous, bool strict) {
+                       double rest, double simultaneous, bool strict, bool record) {
              return std::make_unique<S>(
                  to_model(model),
                  make_step_options(h, law, collisions, order, certify, max_iterations, max_impacts,
-                                   max_halvings, max_impulses, rest, simultaneous, strict));
+                                   max_halvings, max_impulses, rest, simultaneous, strict),
+                 record);
            }),
            py::arg("model"), py::arg("h") = o.h, py::arg_v("law", o.law, "ImpactLaw.nodal_energy"),
            py::kw_only(), py::arg("collisions") = o.collisions,
@@ -165,7 +120,7 @@ void bind_stepper(py::module_& m) {
            py::arg("max_iterations") = o.max_iterations, py::arg("max_impacts") = o.max_impacts,
            py::arg("max_halvings") = o.max_halvings, py::arg("max_impulses") = o.max_impulses,
            py::arg("rest") = o.rest, py::arg("simultaneous") = o.simultaneous,
-           py::arg("strict") = o.strict)
+           py::arg("strict") = o.strict, py::arg("record") = false)
       .def("advance", &S::advance, advance_doc, py::arg("state"), py::kw_only(),
            py::arg("control") = py::none(), py::arg("forces") = py::none(),
            py::arg("qfrc") = py::none())
@@ -176,6 +131,7 @@ void bind_stepper(py::module_& m) {
         return "Stepper(" + py::repr(py::cast(s.stepper.model())).cast<std::string>() +
                ", h=" + py::repr(py::float_(s.stepper.options().h)).cast<std::string>() + ")";
       });
+  bind_step_derivatives(stepper);
 }
 
 }  // namespace saltus::bindings

@@ -19,6 +19,7 @@ set(SALTUS_TEST_lagrangian
   lagrangian/test_closed_forms.cpp
   lagrangian/test_composite.cpp
   lagrangian/test_curve.cpp
+  lagrangian/test_hessian.cpp
   lagrangian/test_newton_euler.cpp
   lagrangian/test_no_allocation.cpp
   lagrangian/test_own_terms.cpp

@@ -37,6 +37,11 @@ PREDICTED = {
         "5 balls, 3 up: 3 left, 2 still, 6 impulses",
     ],
     "cradle_of_thousand": ["at 0.5046 s 999 impulses of 0.9366 N s"],
+    "derivative_of_an_impact": [
+        "the struck ball ends at 1.200 m",
+        "by x1, x2, v1, v2: [1. 0. 1. 0.]",
+        "the same backwards: [1. 0. 1. 0.]",
+    ],
     "derivatives": ["L_vv[1, 1] = 1.001 kg m^2"],
     "drop_a_box": [
         "meets the floor at 0.319275 s",

@@ -22,7 +22,8 @@ for floor in ("lagrangian", "collision", "force", "constraint"):
     FLOORS[floor] = GROUND | {"spatial", "tree"}
 FLOORS["model"] = FLOORS["tree"] | {"tree", "lagrangian", "collision", "force", "constraint"}
 FLOORS["variational"] = FLOORS["model"] | {"model"}
-FLOORS["rollout"] = FLOORS["variational"] | {"variational"}
+FLOORS["derivatives"] = FLOORS["variational"] | {"variational"}
+FLOORS["rollout"] = FLOORS["derivatives"] | {"derivatives"}
 FLOORS["urdf"] = FLOORS["model"] | {"model"}
 FLOORS["saltus"] = set(FLOORS)  # the umbrella header
 
@@ -40,7 +41,7 @@ ROOMS: dict[str, dict[str, set[str]]] = {
         "chord": {"chord"},
     },
     "variational": {
-        "terms": {"energies", "impact_problem", "options", "report"},
+        "terms": {"energies", "impact_problem", "options", "report", "tape"},
         "law": {"cascade", "friction"},
         "uniqueness": {"certificate", "outcomes"},
         "overlap": {"overlap"},

@@ -59,6 +59,7 @@ ORDER = {
     ],
     "runs": [
         "shown",
+        "gradient",
         "trajectory",
         "batch_trajectory",
         "starts",

@@ -3,6 +3,7 @@
 
 #include "saltus/collision/contact.hpp"
 #include "saltus/collision/gap.hpp"
+#include "saltus/derivatives/step_derivative.hpp"
 #include "saltus/model/close_loops.hpp"
 #include "saltus/model/dynamics.hpp"
 #include "saltus/model/equilibrium.hpp"

@@ -13,6 +13,7 @@ from saltus import _core, plots
 from saltus._core import Model, ModelError
 from saltus.records import files
 from saltus.records.tables import as_array
+from saltus.runs.gradient import RunGradient, gradient
 from saltus.runs.shown import Shown
 
 if TYPE_CHECKING:
@@ -147,6 +148,38 @@ class Trajectory(Shown):
         momenta = p is not None
         core = _core.Trajectory.from_states(model, times, configurations, rows, momenta, h)
         return cls.from_core(core)
+
+    def gradient(self, q_hat: ArrayLike, p_hat: ArrayLike) -> RunGradient:
+        """Return the gradient of a cost of the run by what it was made from.
+
+        The adjoint method: every step is made again from its row, the last first, and its
+        derivative transposed (`Stepper.vjp`), through all impacts. About three times the run.
+
+        Parameters
+        ----------
+        q_hat, p_hat : array_like, shape (rows, n_v) or (n_v,)
+            The gradient of the cost by the state of each row, q along velocities; or by that of
+            the last row alone.
+
+        Returns
+        -------
+        RunGradient
+
+        Raises
+        ------
+        ModelError
+            Where a step has no derivative, named as by `Stepper.jvp`; where rows are not those of
+            every step; where forces were applied, which a run does not record.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> model = saltus.load_urdf(saltus.scenes.chain(1))
+        >>> run = saltus.simulate(model, [0.1], duration=0.5)
+        >>> run.gradient(q_hat=[1.0], p_hat=[0.0]).q.shape
+        (1,)
+        """
+        return gradient(self, q_hat, p_hat)
 
     def save(self, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
         """Write everything to an HDF5 file, with the model in it.

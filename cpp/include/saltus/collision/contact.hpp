@@ -9,6 +9,8 @@
 // with i at or nearer to b and C of the two features that face each other (gap.hpp).
 #pragma once
 
+#include <vector>
+
 #include "saltus/collision/gap.hpp"
 #include "saltus/collision/pair.hpp"
 #include "saltus/tree/kinematics.hpp"
@@ -43,5 +45,9 @@ SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, con
 /// of phi along q (+) s v, a ball turning at a constant rate.
 SALTUS_EXPORT void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                    const Gap& gap, Eigen::Ref<MatX> phi_qq);
+
+/// The same among the velocities that move the pair, in increasing order: (k, k) and (k).
+SALTUS_EXPORT void set_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                   const Gap& gap, MatX& phi_qq, std::vector<int>& velocities);
 
 }  // namespace saltus

@@ -101,6 +101,11 @@ SALTUS_EXPORT void solve(const Tree& tree, const PackedTree& packed, PackedMatri
 SALTUS_EXPORT void solve_scaled(const Tree& tree, const PackedTree& packed, PackedMatrix& J,
                                 VecX& x);
 
+/// x <- (K^-1 J)^-T x: the transpose of solve_scaled, from the same factors. pull_back_end makes of
+/// it that of solve.
+SALTUS_EXPORT void solve_transposed(const Tree& tree, const PackedTree& packed, PackedMatrix& J,
+                                    VecX& x);
+
 /// x <- K^T x: from a derivative by the end of an arc to that by its velocity, over tau. Needs
 /// factorize.
 SALTUS_EXPORT void pull_back_end(const PackedTree& packed, const PackedMatrix& J, VecX& x);

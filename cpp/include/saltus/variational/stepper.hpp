@@ -6,6 +6,7 @@
 #include "saltus/model/model.hpp"
 #include "saltus/variational/options.hpp"
 #include "saltus/variational/report.hpp"
+#include "saltus/variational/tape.hpp"
 
 namespace saltus {
 
@@ -36,6 +37,11 @@ class SALTUS_EXPORT Stepper {
 
   /// Forgets all earlier steps: the next steps are bitwise those of a new Stepper.
   void forget();
+
+  /// Whether the next steps record a tape for derivatives. Off, as at first, it costs nothing.
+  void record(bool on);
+  /// Of the last step; nullptr where none was recorded, or the step failed. Valid until the next.
+  const Tape* tape() const;
 
   /// Of the last step.
   const StepReport& report() const;

@@ -109,9 +109,12 @@ void add_gap_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
   }
 }
 
-void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
-                     Eigen::Ref<MatX> phi_qq) {
-  if (pair.is_stop()) return;  // phi is linear
+namespace {
+
+/// Calls f(velocity, velocity, value) for each pair of joints of the chain, once.
+template <class F>
+void for_each_second(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                     const F& f) {
   const Mat6 C = curvature(gap);
   for (std::size_t l = 0; l < pair.chain.size(); ++l) {
     const Drive& drive_l = tree.drive[pair.chain[l].joint];
@@ -129,11 +132,39 @@ void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, 
                    u_l = t_l.tail<3>();
         second += 0.5 * gap.n_W.dot(w_l.cross(u_i) - w_i.cross(u_l));
       }
-      const double value = drive_i.multiplier * drive_l.multiplier * second;
-      phi_qq(drive_i.velocity, drive_l.velocity) += value;
-      if (i < l) phi_qq(drive_l.velocity, drive_i.velocity) += value;
+      f(drive_i.velocity, drive_l.velocity, drive_i.multiplier * drive_l.multiplier * second,
+        i == l);
     }
   }
+}
+
+}  // namespace
+
+void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                     Eigen::Ref<MatX> phi_qq) {
+  if (pair.is_stop()) return;  // phi is linear
+  for_each_second(tree, kin, pair, gap, [&](int i, int l, double value, bool same) {
+    phi_qq(i, l) += value;
+    if (!same) phi_qq(l, i) += value;
+  });
+}
+
+void set_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                     MatX& phi_qq, std::vector<int>& velocities) {
+  velocities.clear();
+  for (const ChainJoint& k : pair.chain) velocities.push_back(tree.drive[k.joint].velocity);
+  std::sort(velocities.begin(), velocities.end());
+  velocities.erase(std::unique(velocities.begin(), velocities.end()), velocities.end());
+  const auto n = static_cast<Eigen::Index>(velocities.size());
+  phi_qq.setZero(n, n);
+  if (pair.is_stop()) return;
+  const auto index = [&](int velocity) {
+    return std::lower_bound(velocities.begin(), velocities.end(), velocity) - velocities.begin();
+  };
+  for_each_second(tree, kin, pair, gap, [&](int i, int l, double value, bool same) {
+    phi_qq(index(i), index(l)) += value;
+    if (!same) phi_qq(index(l), index(i)) += value;
+  });
 }
 
 }  // namespace saltus

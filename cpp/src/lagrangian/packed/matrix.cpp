@@ -1,5 +1,7 @@
 #include "lagrangian/packed/matrix.hpp"
 
+#include <utility>
+
 #include "lagrangian/packed/ball.hpp"
 #include "lagrangian/packed/own_terms.hpp"
 
@@ -196,6 +198,28 @@ void solve(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
     x.segment<3>(ball.velocity) = times_K(J, ball, x.segment<3>(ball.velocity));
   }
   solve_scaled(tree, t, J, x);
+}
+
+// J^T has the generators s and t in each other's place, and so gains and rows, lower and upper.
+void solve_transposed(const Tree& tree, const PackedTree& t, PackedMatrix& J, VecX& x) {
+  if (J.is_dense) {
+    J.solution = J.lu.transpose().solve(x);
+    x = J.solution;
+    return;
+  }
+  packed::solve_coupled_transposed(J, x);
+  const auto exchange = [&J] {
+    std::swap(J.s, J.t);
+    std::swap(J.gain, J.row);
+    if (!J.symmetric) std::swap(J.lower, J.upper);
+  };
+  for (int i = 0; i < tree.joints(); ++i) *at(J.x, t.slot[i]) = x[i];
+  exchange();
+  for (const PackedGroup& g : t.groups) {
+    g.sweep ? packed::solve_sweep(g, J, true) : packed::solve_lu(g, J);
+  }
+  exchange();
+  for (int i = 0; i < tree.joints(); ++i) x[i] = *at(J.x, t.slot[i]);
 }
 
 void pull_back_end(const PackedTree& t, const PackedMatrix& J, VecX& x) { pull_back(t, J, 0, x); }

@@ -17,6 +17,7 @@ void solve_lu(const PackedGroup& g, PackedMatrix& J);
 void solve_lane(const PackedGroup& g, int lane, PackedMatrix& J, double* x);
 
 bool factorize_sweep(const PackedGroup& g, PackedMatrix& J);
-void solve_sweep(const PackedGroup& g, PackedMatrix& J);
+/// @param transposed s with t and gain with row exchanged by the caller: J^-T
+void solve_sweep(const PackedGroup& g, PackedMatrix& J, bool transposed = false);
 
 }  // namespace saltus::packed

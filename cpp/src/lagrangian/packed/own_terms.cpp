@@ -183,4 +183,12 @@ void solve_coupled(PackedMatrix& J, VecX& x) {
   x.noalias() -= J.JG * J.Hy;
 }
 
+// (J^T + H G^T)^-1 = J^-T (1 - H (1 + G^T J^-T H)^-1 (J^-1 G)^T)
+void solve_coupled_transposed(PackedMatrix& J, VecX& x) {
+  if (!J.is_coupled) return;
+  J.Hx.noalias() = J.JG.transpose() * x;
+  J.Hy = J.inner_lu.transpose().solve(J.Hx);
+  x.noalias() -= J.H * J.Hy;
+}
+
 }  // namespace saltus::packed

@@ -35,5 +35,7 @@ bool factorize_coupled(const Tree& tree, const PackedTree& t, const Packed& w, d
                        PackedMatrix& J);
 /// x <- what they make of x, that J^-1 without them has been applied to.
 void solve_coupled(PackedMatrix& J, VecX& x);
+/// The transposed one: what comes before the other factors' J^-T.
+void solve_coupled_transposed(PackedMatrix& J, VecX& x);
 
 }  // namespace saltus::packed

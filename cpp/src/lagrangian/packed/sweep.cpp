@@ -159,12 +159,13 @@ SALTUS_CLONES bool factorize_sweep(const PackedGroup& g, PackedMatrix& J) {
 namespace {
 
 /// x <- D^-1 (x - t.c) of a ball, and gain x to the joint above. Position k is its first joint's.
-SALTUS_INLINE void rise_over_ball(const PackedGroup& g, int k, PackedMatrix& J) {
+/// Transposed, where the gains are those of D^-1 row, x <- x - t.c alone.
+SALTUS_INLINE void rise_over_ball(const PackedGroup& g, int k, bool transposed, PackedMatrix& J) {
   const int first = g.slot(k), last = first + 2;
   const Nine c = load(J.c[last]);
   Vec3 e;
   for (int i = 0; i < 3; ++i) e[i] = *at(J.x, first + i) - dot(load(J.t[first + i]), c);
-  e = Mat3Map(at(J.pivot, last)) * e;
+  if (!transposed) e = Mat3Map(at(J.pivot, last)) * e;
   for (int i = 0; i < 3; ++i) *at(J.x, first + i) = e[i];
   if (g.parent[k] < 0) return;
   PackedMatrix::Nine& parent = J.c[g.slot(g.parent[k])];
@@ -174,27 +175,31 @@ SALTUS_INLINE void rise_over_ball(const PackedGroup& g, int k, PackedMatrix& J) 
   save(sum, parent);
 }
 
-/// x <- x - D^-1 row a, and a += s x.
-SALTUS_INLINE void descend_ball(int first, Nine& a, PackedMatrix& J) {
+/// x <- x - D^-1 row a, and a += s x. Transposed, where rows are the gains, D^-T (x - row a).
+SALTUS_INLINE void descend_ball(int first, bool transposed, Nine& a, PackedMatrix& J) {
   const Nine above = a;
+  Vec3 x;
   for (int i = 0; i < 3; ++i) {
-    double& x = *at(J.x, first + i);
-    x -= dot(load(J.row[first + i]), above);
-    add(x, load(J.s[first + i]), a);
+    x[i] = *at(J.x, first + i) - dot(load(J.row[first + i]), above);
+  }
+  if (transposed) x = (Mat3Map(at(J.pivot, first + 2)).transpose() * x).eval();
+  for (int i = 0; i < 3; ++i) {
+    *at(J.x, first + i) = x[i];
+    add(x[i], load(J.s[first + i]), a);
   }
   save(a, J.a[first + 2]);
 }
 
 }  // namespace
 
-SALTUS_CLONES void solve_sweep(const PackedGroup& g, PackedMatrix& J) {
+SALTUS_CLONES void solve_sweep(const PackedGroup& g, PackedMatrix& J, bool transposed) {
   const bool balls = !J.symmetric && !g.balls.empty();
   std::size_t next = balls ? g.balls.size() : 0;
   for (int k = 0; k < g.positions; ++k) save(zero(), J.c[g.slot(k)]);
   for (int k = g.positions - 1; k >= 0; --k) {
     if (next > 0 && g.balls[next - 1] + 2 == k) {
       k = g.balls[--next];
-      rise_over_ball(g, k, J);
+      rise_over_ball(g, k, transposed, J);
       continue;
     }
     const int slot = g.slot(k);
@@ -214,7 +219,7 @@ SALTUS_CLONES void solve_sweep(const PackedGroup& g, PackedMatrix& J) {
     if (g.parent[k] >= 0) a = load(J.a[g.slot(g.parent[k])]);
     if (balls && next < g.balls.size() && g.balls[next] == k) {
       ++next;
-      descend_ball(slot, a, J);
+      descend_ball(slot, transposed, a, J);
       k += 2;
       continue;
     }

@@ -73,6 +73,7 @@ void Stepper::Impl::take(const ForceInput& with) {
     throw ModelError("law compensated takes no applied forces; nodal_energy does");
   }
   input = with;
+  if (recorded) recorded->is_whole = false;
   ArcScratch& arc = flight.work.scratch;
   arc.input = &input;
   arc.has_forces = has_forces;

@@ -102,14 +102,18 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   clear(report);
   if (!last_is_valid || !(state == last) || pool.is_full()) start(state, is_own);
   last_is_valid = false;  // until this step is done
+  start_tape(state);
   set_shift();
   const double t_start = state.t, h = scene.options.h;
   const Launch* launch = has_approach(node) ? collide() : nullptr;
   for (double left = h; left > 0;) {
-    fly_one_arc(std::min(left, longest), launch);
+    const double asked = std::min(left, longest);
+    fly_one_arc(asked, launch);
+    record_arc(asked, left, launch);
     left = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
     if (!flight.work.rows.active.empty() && left < no_duration * h) left = 0;
     end_arc(t_start + (h - left));
+    record_end();
     launch = has_approach(node) ? collide() : nullptr;
   }
   end_step(launch);
@@ -121,6 +125,8 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
 void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
   clear(report);
   start(state, is_own);
+  start_tape(state);
+  refuse("an arc by time stepping (StepReport.fallbacks tells of it)");
   set_shift();
   const double t_start = state.t, h = scene.options.h, H = node_energy(scene, node);
   int stepped = 0;
@@ -243,7 +249,9 @@ const Launch* Stepper::Impl::collide() {
   const Launch* launch = nullptr;
   const double energy_before = conserved_energy();
   node.loops.impulse.setZero();
+  record_contacts();
   if (!resolve_impact_at(scene, energy_before, node, impact, report, launch)) fail_jammed();
+  record_impulses();
   if (node.loops.some) add_loop_work(node.loops.impulse);
   forget_velocities(memory);
   middle.is_known = false;
@@ -288,6 +296,7 @@ void Stepper::Impl::end_step(const Launch* launch) {
   last.q = node.q;
   last.p = node.p;
   last_is_valid = true;
+  end_tape();
 }
 
 }  // namespace saltus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <optional>
 #include <string>
 
 #include "saltus/variational/stepper.hpp"
@@ -57,6 +58,16 @@ struct Stepper::Impl {
   double conserved_energy();
   void end_step(const Launch* launch);
 
+  // record.cpp
+  void refuse(const char* why);
+  void start_tape(const State& state);
+  void record_arc(double asked, double left, const Launch* launch);
+  void record_row(const Row& row, double lambda, TapeRow& to);
+  void record_end();
+  void record_contacts();
+  void record_impulses();
+  void end_tape();
+
   // acceptance.cpp
   int most_impacts() const;
   int most_work() const;
@@ -106,6 +117,7 @@ struct Stepper::Impl {
   ForceInput input;           // of the step
   std::vector<int> damped;    // velocities whose damping may be stiff
   StepReport report;
+  std::optional<Tape> recorded;  // where one is asked for
   State last;  // where the step starts; the node still holds it if the last step ended there
   bool last_is_valid = false;
   double longest = 0;  // [s] no arc of this attempt may be longer

@@ -1,0 +1,126 @@
+#include "derivatives/parameters.hpp"
+
+namespace saltus {
+namespace {
+
+using Strided6 = Eigen::Map<const Vec6, 0, Eigen::InnerStride<lanes>>;
+
+Mat3 rotation_of(const Packed& w, int slot) {
+  Mat3 R;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) R(r, c) = at(w.R, slot)[(3 * c + r) * lanes];
+  }
+  return R;
+}
+
+Vec3 position_of(const Packed& w, int slot) {
+  const double* p = at(w.p, slot);
+  return {p[0], p[lanes], p[2 * lanes]};
+}
+
+/// A twist about O as that of the joint's origin, in the joint's frame: (turn, move).
+Vec6 in_joint(const Mat3& R, const Vec3& p, const Vec6& twist) {
+  Vec6 out;
+  out << R.transpose() * twist.head<3>(),
+      R.transpose() * (twist.tail<3>() + twist.head<3>().cross(p));
+  return out;
+}
+
+using Ten = Eigen::Matrix<double, 10, 1>;
+
+Ten contract(const Vec6& V, const Vec6& dV, const Vec6& turn, const Vec3& g) {
+  const Vec3 w = V.head<3>(), v = V.tail<3>(), dw = dV.head<3>(), dv = dV.tail<3>();
+  Ten out;
+  out[0] = v.dot(dv) + g.dot(turn.tail<3>());
+  out.segment<3>(1) = dv.cross(w) + v.cross(dw) + g.cross(turn.head<3>());
+  out.tail<6>() << w.x() * dw.x(), w.x() * dw.y() + w.y() * dw.x(), w.x() * dw.z() + w.z() * dw.x(),
+      w.y() * dw.y(), w.y() * dw.z() + w.z() * dw.y(), w.z() * dw.z();
+  return out;
+}
+
+/// The ten parameters of a link about its joint's origin, of unit changes about its own: columns.
+Eigen::Matrix<double, 10, 10> moved(const Pose& X) {
+  const auto inertia = [](const Eigen::Matrix<double, 10, 1>& x) {
+    Mat3 I;
+    I << x[4], x[5], x[6], x[5], x[7], x[8], x[6], x[8], x[9];
+    return I;
+  };
+  Eigen::Matrix<double, 10, 10> out;
+  for (int k = 0; k < 10; ++k) {
+    const Ten unit = Ten::Unit(k);
+    const double m = unit[0];
+    const Vec3 h = X.R * unit.segment<3>(1), p = X.p;
+    // I_J = R I R^T + m (p.p 1 - p p^T) + 2 h.p 1 - h p^T - p h^T
+    const Mat3 I = X.R * inertia(unit) * X.R.transpose() +
+                   (m * p.dot(p) + 2 * h.dot(p)) * Mat3::Identity() - m * p * p.transpose() -
+                   h * p.transpose() - p * h.transpose();
+    out.col(k) << m, h + m * p, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2);
+  }
+  return out;
+}
+
+void add_own_gradient(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
+                      double factor, ParameterGradient& to) {
+  for (int c = 0; c < model.tree.n_v; ++c) {
+    const int slot = model.packed.slot_of_velocity[static_cast<std::size_t>(c)];
+    to.armature[c] += factor * y[c] * *at(w.s_dot, slot);
+    const double* own = model.packed.own.empty() ? nullptr : at(model.packed.own, slot);
+    const double stiffness = own ? own[lanes] : 0, rest = own ? own[2 * lanes] : 0;
+    to.stiffness[c] -= factor * x[c] * (*at(w.s, slot) - rest);
+    to.rest[c] += factor * x[c] * stiffness;
+  }
+}
+
+}  // namespace
+
+void ParameterGradient::start(const ModelData& model) {
+  body.setZero(model.tree.joints(), 10);
+  for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
+  for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
+}
+
+void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
+                  double factor, ParameterGradient& to) {
+  const Tree& tree = model.tree;
+  for (int i = 0; i < tree.joints(); ++i) {
+    const int slot = model.packed.slot[i], parent = tree.parent[i];
+    const double* S_W = at(w.S_W, slot);
+    const Strided6 S(S_W), W(S_W + 6 * lanes), V(at(w.V, slot));
+    const Drive& drive = tree.drive[i];
+    const double x_i = drive.multiplier * x[drive.velocity];
+    const double y_i = drive.multiplier * y[drive.velocity];
+    Vec6 &twist = to.twist[i], &turn = to.turn[i];
+    twist = y_i * S + x_i * W;
+    turn = x_i * S;
+    if (parent >= 0) {
+      twist += to.twist[parent];
+      turn += to.turn[parent];
+    }
+    const Mat3 R = rotation_of(w, slot);
+    const Vec3 p = position_of(w, slot), g = R.transpose() * model.mass.gravity;
+    to.body.row(i) +=
+        factor *
+        contract(in_joint(R, p, V), in_joint(R, p, twist), in_joint(R, p, turn), g).transpose();
+  }
+  add_own_gradient(model, w, x, y, factor, to);
+}
+
+void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const VecX& Q,
+                      ParameterGradient& to) {
+  add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
+  to.damping -= arc.v.cwiseProduct(Q);
+  if (arc.s.shift.size() == 0) return;
+  // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
+  to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);
+}
+
+MatX by_link(const ModelData& model, const ParameterGradient& gradient) {
+  MatX out = MatX::Zero(static_cast<Eigen::Index>(model.links.size()), 10);
+  for (const Link& link : model.links) {
+    if (link.joint < 0) continue;
+    out.row(link.index) = gradient.body.row(link.joint) * moved(link.X_JL);
+  }
+  return out;
+}
+
+}  // namespace saltus

@@ -1,0 +1,236 @@
+#include "saltus/derivatives/step_derivative.hpp"
+
+#include "derivatives/verdict.hpp"
+
+namespace saltus {
+
+struct StepDerivatives::Impl {
+  Impl(const Model& with, const StepOptions& with_options)
+      : shared(with_options.collisions ? with : with.without_collisions()),
+        options(with_options),
+        model(*shared) {}
+
+  void check(const StepDirection& d) const;
+  void need_step() const;
+  Tangent push(const StepDirection& by, Order order = Order::own);
+  StepDirection pull(const StateDirection& covector, bool with_parameters);
+  void set_columns(VecX StepDirection::* input, Eigen::Index count, MatX& out);
+  void set_A(MatX& A);
+  double spread(const MatX& A, std::size_t impact, Smoothness& verdict);
+  void judge(StepDerivative& out);
+
+  Model shared;
+  StepOptions options;
+  const ModelData& model;
+  Tape tape;
+  StepProgram program;
+  ParameterGradient parameters;
+  bool is_set = false;
+};
+
+void StepDerivatives::Impl::need_step() const {
+  if (!is_set)
+    throw ModelError("there is no step to differentiate: none was recorded, or it failed");
+}
+
+void StepDerivatives::Impl::check(const StepDirection& d) const {
+  const auto fits = [](const VecX& x, int n, const char* what, const char* unit) {
+    if (x.size() > 0) check_vector(x, n, what, unit);
+  };
+  fits(d.q, model.tree.n_v, "dq", "velocities");
+  fits(d.p, model.tree.n_v, "dp", "velocities");
+  fits(d.control, model.forces.n_u(), "du", "actuators");
+  fits(d.qfrc, model.tree.n_v, "dqfrc", "velocities");
+  fits(d.restitution, program.n_impacts, "drestitution", "impacts");
+}
+
+Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
+  Tangent z{by.q.size() > 0 ? by.q : program.zero, by.p.size() > 0 ? by.p : program.zero};
+  push_program(model, tape, by, order, program, z);
+  return z;
+}
+
+void StepDerivatives::Impl::set_columns(VecX StepDirection::* input, Eigen::Index count,
+                                        MatX& out) {
+  const Eigen::Index n = model.tree.n_v;
+  out.resize(2 * n, count);
+  StepDirection by;
+  by.*input = VecX::Zero(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    (by.*input)[j] = 1;
+    const Tangent z = push(by);
+    out.col(j) << z.q, z.p;
+    (by.*input)[j] = 0;
+  }
+}
+
+void StepDerivatives::Impl::set_A(MatX& A) {
+  const Eigen::Index n = model.tree.n_v;
+  MatX by_q, by_p;
+  set_columns(&StepDirection::q, n, by_q);
+  set_columns(&StepDirection::p, n, by_p);
+  A.resize(2 * n, 2 * n);
+  A << by_q, by_p;
+}
+
+/// The largest difference of A by other orders of the impact, relative to its largest entry.
+double StepDerivatives::Impl::spread(const MatX& A, std::size_t index, Smoothness& verdict) {
+  constexpr int most = 64;  // orders; of many contacts these are a sample
+  ImpactPieces& impact = *program.impacts[index];
+  const auto orders = find_orders(model, tape.impacts[index], impact, most);
+  double out = 0;
+  MatX other;
+  for (std::size_t k = 1; k < orders.size(); ++k) {
+    if (!is_same_outcome(orders[k].p, orders[0].p)) {
+      verdict = worse(verdict, Smoothness::order_dependent);
+      continue;
+    }
+    set_impulses(model, tape, orders[k].contacts, impact);
+    set_A(other);
+    out = std::max(out, (other - A).cwiseAbs().maxCoeff() / A.cwiseAbs().maxCoeff());
+  }
+  if (orders.size() > 1) set_impulses(model, tape, orders[0].contacts, impact);
+  if (out > 1e-9) verdict = worse(verdict, Smoothness::selection);
+  return out;
+}
+
+void StepDerivatives::Impl::judge(StepDerivative& out) {
+  for (int k = 0; k < program.n_impacts; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const TapeImpact& told = tape.impacts[i];
+    ImpactPieces& impact = *program.impacts[i];
+    out.impacts.push_back(describe(model, told, impact));
+    ImpactDerivative& own = out.impacts.back();
+    if (told.contacts.size() > 1 && !told.is_together)
+      own.spread = spread(out.A, i, out.smoothness);
+    for (std::size_t j = 0; j < told.contacts.size(); ++j) {
+      const int pair = told.contacts[j].pair;
+      const double touch = shared.pair(pair).touch;
+      if (own.depth < 100 * touch) out.smoothness = worse(out.smoothness, Smoothness::grazing);
+    }
+    const bool is_at_end = impact.arrival.q.size() == 0;
+    int approaching = 0;
+    for (const TapeContact& c : told.contacts) approaching += c.u < -c.epsilon_u;
+    const bool is_several = told.is_together && approaching > 1;
+    if (is_at_end || is_several || !own.weak.empty()) {
+      out.smoothness = worse(out.smoothness, Smoothness::one_sided);
+    }
+  }
+  if (program.n_passings > 0) out.smoothness = worse(out.smoothness, Smoothness::grazing);
+}
+
+StepDerivatives::StepDerivatives(const Model& model, const StepOptions& options)
+    : impl_(std::make_unique<Impl>(model, options)) {}
+StepDerivatives::~StepDerivatives() = default;
+StepDerivatives::StepDerivatives(StepDerivatives&&) noexcept = default;
+StepDerivatives& StepDerivatives::operator=(StepDerivatives&&) noexcept = default;
+
+void StepDerivatives::linearize(const Tape& tape) {
+  impl_->is_set = false;
+  if (!tape.is_whole) impl_->need_step();
+  impl_->tape = tape;
+  set_program(impl_->model, impl_->tape, impl_->program);
+  impl_->is_set = true;
+}
+
+StateDirection StepDerivatives::jvp(const StepDirection& direction) {
+  impl_->need_step();
+  impl_->check(direction);
+  Tangent z = impl_->push(direction);
+  return {std::move(z.q), std::move(z.p)};
+}
+
+StateDirection StepDerivatives::directional(const StepDirection& direction) {
+  impl_->need_step();
+  impl_->check(direction);
+  Tangent z = impl_->push(direction, Order::of_direction);
+  return {std::move(z.q), std::move(z.p)};
+}
+
+StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool with_parameters) {
+  need_step();
+  check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
+  check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
+  Tangent z{covector.q, covector.p};
+  StepDirection out;
+  pull_program(model, program, z, out, with_parameters ? &parameters : nullptr);
+  out.q = std::move(z.q);
+  out.p = std::move(z.p);
+  return out;
+}
+
+StepDirection StepDerivatives::vjp(const StateDirection& covector) {
+  return impl_->pull(covector, false);
+}
+
+StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient& by_model) {
+  StepDirection out = impl_->pull(covector, true);
+  const ParameterGradient& all = impl_->parameters;
+  by_model = {by_link(impl_->model, all), all.stiffness, all.rest, all.damping, all.armature};
+  return out;
+}
+
+void StepDerivatives::derivative(MatX& A, MatX& B) {
+  impl_->need_step();
+  impl_->set_A(A);
+  impl_->set_columns(&StepDirection::control, impl_->model.forces.n_u(), B);
+}
+
+StepDerivative StepDerivatives::derivative() {
+  StepDerivative out;
+  derivative(out.A, out.B);
+  impl_->set_columns(&StepDirection::qfrc, impl_->model.tree.n_v, out.qfrc);
+  impl_->set_columns(&StepDirection::restitution, impl_->program.n_impacts, out.restitution);
+  if (impl_->program.tells_time) {
+    StepDirection by;
+    by.h = 1;
+    const Tangent z = impl_->push(by);
+    out.h.resize(2 * z.q.size());
+    out.h << z.q, z.p;
+  }
+  impl_->judge(out);
+  return out;
+}
+
+std::vector<Selection> StepDerivatives::selections(int most) {
+  impl_->need_step();
+  std::vector<Selection> out;
+  for (int k = 0; k < impl_->program.n_impacts; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const TapeImpact& told = impl_->tape.impacts[i];
+    ImpactPieces& impact = *impl_->program.impacts[i];
+    if (told.contacts.size() < 2 || told.is_together) continue;
+    const auto orders = find_orders(impl_->model, told, impact, most);
+    for (const ImpactOrderFound& order : orders) {
+      Selection selection{k, {}, order.p, {}};
+      for (const int c : order.contacts) {
+        selection.pairs.push_back(told.contacts[static_cast<std::size_t>(c)].pair);
+      }
+      if (is_same_outcome(order.p, orders[0].p)) {
+        set_impulses(impl_->model, impl_->tape, order.contacts, impact);
+        impl_->set_A(selection.A);
+      }
+      out.push_back(std::move(selection));
+    }
+    set_impulses(impl_->model, impl_->tape, orders[0].contacts, impact);
+  }
+  return out;
+}
+
+std::string smoothness_name(Smoothness smoothness) {
+  switch (smoothness) {
+    case Smoothness::smooth:
+      return "smooth";
+    case Smoothness::selection:
+      return "selection";
+    case Smoothness::one_sided:
+      return "one_sided";
+    case Smoothness::order_dependent:
+      return "order_dependent";
+    case Smoothness::grazing:
+      break;
+  }
+  return "grazing";
+}
+
+}  // namespace saltus

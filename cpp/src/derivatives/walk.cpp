@@ -1,0 +1,172 @@
+// The pieces of a step in their order, and in reverse.
+#include <limits>
+
+#include "derivatives/program.hpp"
+
+namespace saltus {
+namespace {
+
+using Kind = StepProgram::Kind;
+
+void shift(const Tangent& b, const VecX& n, double slope, Tangent& z, double& left) {
+  const double sigma = -n.dot(z.q) / slope;
+  z.q += sigma * b.q;
+  z.p += sigma * b.p;
+  left -= sigma;
+}
+
+void shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, double left) {
+  const double of_sigma = b.q.dot(z.q) + b.p.dot(z.p) - left;
+  z.q -= of_sigma / slope * n;
+}
+
+double entry(const VecX& x, int k) { return x.size() > 0 ? x[k] : 0; }
+
+void push_impact(double de, ImpactPieces& impact, Tangent& z, double& left) {
+  if (impact.is_together) {
+    const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
+    shift(impact.flow, n, impact.slope, z, left);
+    push_kick(impact.kick, z);
+    return;
+  }
+  for (const ImpulseDerivative& each : impact.impulses) {
+    const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each.contact)];
+    shift(each.flow, gap.n, each.slope, z, left);
+    push_impulse(gap, each, de, z);
+  }
+}
+
+/// The next contact of a trajectory along z (theory, D4): of those that approach with the motion b,
+/// whose gap closes first. @return -1 where none approaches
+int first_contact(const TapeImpact& told, const ImpactPieces& impact, const Tangent& b,
+                  const Tangent& z) {
+  int first = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < impact.node.gaps.size(); ++i) {
+    const VecX& n = impact.node.gaps[i].n;
+    const double rate = n.dot(b.q);
+    if (!(rate < -told.contacts[i].epsilon_u)) continue;
+    const double sigma = -n.dot(z.q) / rate;
+    if (sigma < least) least = sigma, first = static_cast<int>(i);
+  }
+  return first;
+}
+
+void push_along(const ModelData& model, const Tape& tape, const TapeImpact& told, double de,
+                ImpactPieces& impact, Tangent& z, double& left) {
+  VecX p = impact.p_before;
+  Tangent b = impact.arrival;
+  if (b.q.size() == 0) set_flow(model, tape, p, impact.node, b);
+  ImpulseDerivative impulse;
+  for (int count = 0;; ++count) {
+    const int i = first_contact(told, impact, b, z);
+    if (i < 0) return;
+    if (count == 100000) throw ModelError("the impulses along this direction do not end");
+    const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(i)];
+    shift(b, gap.n, gap.n.dot(b.q), z, left);
+    set_impulse(model, tape, i, p, impact.node, impulse);
+    push_impulse(gap, impulse, de, z);
+    set_flow(model, tape, p, impact.node, b);
+  }
+}
+
+}  // namespace
+
+void push_program(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
+                  StepProgram& program, Tangent& z) {
+  if (by.h != 0) check_time(program, "by its duration");
+  double left = by.h;
+  for (const StepProgram::Piece& piece : program.pieces) {
+    const auto k = static_cast<std::size_t>(piece.index);
+    if (piece.kind == Kind::impact) {
+      ImpactPieces& impact = *program.impacts[k];
+      const double de = entry(by.restitution, piece.index);
+      const bool has_orders = impact.node.gaps.size() > 1 && !impact.is_together;
+      if (order == Order::of_direction && has_orders) {
+        push_along(model, tape, tape.impacts[k], de, impact, z, left);
+      } else {
+        push_impact(de, impact, z, left);
+      }
+      continue;
+    }
+    if (piece.kind == Kind::pass) {
+      const Passing& passing = program.passings[k];
+      shift(passing.arrival, passing.gap.n, passing.slope, z, left);
+      continue;
+    }
+    FlownArc& arc = *program.arcs[k];
+    program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
+    if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
+    const double dtau = piece.kind == Kind::rest   ? left
+                        : piece.kind == Kind::part ? piece.part * by.h
+                                                   : 0;
+    push_flown(model, arc, program.dQ, dtau, z);
+    left = piece.kind == Kind::rest ? 0 : left - dtau;
+  }
+  if (!program.has_rest) return;
+  z.q += left * program.motion.q;
+  z.p += left * program.motion.p;
+}
+
+namespace {
+
+double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Tangent& z,
+                   ParameterGradient* to) {
+  if (impact.is_together) {
+    const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
+    const VecX residual = pull_kick(impact.kick, z);
+    if (to != nullptr && residual.size() > 0) {
+      add_kick_gradient(model, impact.kick, residual, impact.node.motion, *to);
+    }
+    shift_back(impact.flow, n, impact.slope, z, left);
+    return 0;
+  }
+  double of_e = 0;
+  for (auto each = impact.impulses.rbegin(); each != impact.impulses.rend(); ++each) {
+    const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each->contact)];
+    const double of_lambda = pull_impulse(gap, *each, z);
+    of_e -= each->u / each->G * of_lambda;
+    if (to != nullptr) {
+      evaluate_at_compression(model, *each, impact.node);
+      const double factor = of_lambda * (1 + each->restitution) / each->G;
+      add_gradient(model, impact.node.w, impact.node.zero, each->w, factor, *to);
+    }
+    shift_back(each->flow, gap.n, each->slope, z, left);
+  }
+  return of_e;
+}
+
+}  // namespace
+
+void pull_program(const ModelData& model, StepProgram& program, Tangent& z, StepDirection& to,
+                  ParameterGradient* parameters) {
+  if (parameters != nullptr) parameters->start(model);
+  to.control.setZero(model.forces.n_u());
+  to.qfrc.setZero(model.tree.n_v);
+  to.restitution.setZero(program.n_impacts);
+  to.h = 0;
+  double left = 0;
+  if (program.has_rest) left = program.motion.q.dot(z.q) + program.motion.p.dot(z.p);
+  for (auto piece = program.pieces.rbegin(); piece != program.pieces.rend(); ++piece) {
+    const auto k = static_cast<std::size_t>(piece->index);
+    if (piece->kind == Kind::impact) {
+      to.restitution[piece->index] = pull_impact(model, left, *program.impacts[k], z, parameters);
+      continue;
+    }
+    if (piece->kind == Kind::pass) {
+      const Passing& passing = program.passings[k];
+      shift_back(passing.arrival, passing.gap.n, passing.slope, z, left);
+      continue;
+    }
+    FlownArc& arc = *program.arcs[k];
+    program.dQ.setZero(model.tree.n_v);
+    const double of_tau = pull_flown(model, arc, program.dQ, z, parameters);
+    to.qfrc += program.dQ;
+    if (to.control.size() > 0) to.control += arc.arc.Q_u.transpose() * program.dQ;
+    if (piece->kind == Kind::rest) left = of_tau;
+    if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);
+  }
+  to.h += left;
+}
+
+}  // namespace saltus
