@@ -41,9 +41,7 @@ def bouncer() -> saltus.Model:
     """Return a ball on a slide above a floor, pushed by a motor."""
     builder = ModelBuilder().add_half_space("floor", (0, 0, 1))
     X = Pose((0, 0, 0.3))
-    builder.add_body(
-        "ball", saltus.Sphere(0.1), mass=1.0, X=X, joint="prismatic", axis=(0, 0, 1)
-    )
+    builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, X=X, joint="prismatic", axis=(0, 0, 1))
     builder.set_default_contact(restitution=0.8)
     return builder.add_motor("push", joint="ball").build()
 
@@ -203,20 +201,20 @@ def test_a_linear_problem_takes_one_iteration():
 
 
 def test_bounds_hold_and_the_rest_is_at_its_best():
-    model, h, N = cart(effort=1.0), 0.1, 20
+    model, h, N = cart(effort=2.0), 0.1, 20
     start, goal = model.state(q=[1.0]), model.state()
     cost = optimize.Quadratic(model, goal, control=0.1, final_q=50.0, final_v=50.0)
     plan = optimize.ilqr(model, start, cost, np.zeros((N, 1)), h=h)
     assert plan.converged
     u = plan.control[:, 0]
-    assert np.all(np.abs(u) <= 1)
-    assert 2 <= np.sum(np.abs(u) == 1) < N
-    assert np.all(plan.gain[np.abs(u) == 1] == 0)
+    assert np.all(np.abs(u) <= 2.0)
+    assert 2 <= np.sum(np.abs(u) == 2.0) < N
+    assert np.all(plan.gain[np.abs(u) == 2.0] == 0)
     system = System(model, h, {})
     other = minimize(
         lambda u: total(system, cost, system.roll(start, u[:, None])),
         np.zeros(N),
-        bounds=[(-1, 1)] * N,
+        bounds=[(-2.0, 2.0)] * N,
         method="L-BFGS-B",
         options={"ftol": 1e-15, "gtol": 1e-9},
     )
@@ -233,7 +231,12 @@ def test_newton_converges_quadratically_where_gauss_and_newton_do_linearly():
     found = {}
     for second_order in (False, True):
         found[second_order] = optimize.ilqr(
-            model, start, cost, np.zeros((40, 1)), h=0.03, tolerance=1e-13,
+            model,
+            start,
+            cost,
+            np.zeros((40, 1)),
+            h=0.03,
+            tolerance=1e-13,
             second_order=second_order,
         )
     gauss, newton = found[False], found[True]
@@ -355,6 +358,11 @@ def test_ilqr_says_what_is_wrong():
         optimize.ilqr(model, [0, 0], cost, zeros)
     with pytest.raises(TypeError, match="model is a str"):
         optimize.ilqr("acrobot", start, cost, zeros)
-    short = optimize.ilqr(model, model.state({"shoulder": 1.0}), optimize.Quadratic(
-        model, model.state(), q=1.0, control=0.1), np.zeros((20, 1)), iterations=1)
+    short = optimize.ilqr(
+        model,
+        model.state({"shoulder": 1.0}),
+        optimize.Quadratic(model, model.state(), q=1.0, control=0.1),
+        np.zeros((20, 1)),
+        iterations=1,
+    )
     assert short.message == "1 iterations were not enough"

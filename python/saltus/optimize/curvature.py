@@ -37,7 +37,8 @@ class Curvature:
 
     def __call__(self, k: int, after: Array) -> Array:
         """Return the Hessian of step k, (2 n_v + n_u, 2 n_v + n_u)."""
-        x, u = self.path.states[k], self.path.control[k]
+        x = self.path.states[k]
+        u = self.system.inside(self.path.control[k], 2 * STEP)
         n, m = 2 * self.system.model.n_v, len(u)
         scale = np.concatenate(
             [np.ones(n // 2), np.maximum(np.abs(x.p), 1), np.maximum(np.abs(u), 1)]

@@ -85,7 +85,11 @@ def curvature_unit(cost: Expansions, slopes: Slopes) -> float:
 
 
 def find_feedback(
-    system: System, cost: Cost, terms: Expansions, search: Search, bounds: tuple[Array, Array],
+    system: System,
+    cost: Cost,
+    terms: Expansions,
+    search: Search,
+    bounds: tuple[Array, Array],
     second_order: bool,
 ) -> Feedback | None:
     """Return the step of this iteration: Newton's where the cost is convex, else Gauss-Newton's."""
@@ -106,7 +110,11 @@ def find_feedback(
 
 
 def improve(
-    system: System, cost: Cost, search: Search, bounds: tuple[Array, Array], tolerance: float,
+    system: System,
+    cost: Cost,
+    search: Search,
+    bounds: tuple[Array, Array],
+    tolerance: float,
     second_order: bool,
 ) -> bool:
     """Make one iteration; whether another is worth while."""
@@ -120,7 +128,8 @@ def improve(
             return False
         if search.gain is None:
             search.gain = by.gain
-        if by.decrement <= tolerance * (1e-300 + abs(search.cost)):
+        is_damped = search.damping > 0  # promises less than there is to gain
+        if not is_damped and by.decrement <= tolerance * (1e-300 + abs(search.cost)):
             search.gain, search.converged = by.gain, True
             search.decrements.append(by.decrement)
             search.message = f"converged: {by.decrement:.1e} of the cost is left to gain"
@@ -134,12 +143,14 @@ def improve(
                 search.decrements.append(by.decrement)
                 search.path, search.cost, search.gain = trial, value, by.gain
                 search.costs.append(value)
-                search.damping = 0.0 if search.damping <= LEAST_DAMPING * unit else (
-                    search.damping * (0.1 if alpha == 1.0 else 1.0)
+                search.damping = (
+                    0.0
+                    if search.damping <= LEAST_DAMPING * unit
+                    else (search.damping * (0.03 if alpha == 1.0 else 1.0))
                 )
                 return True
             alpha *= 0.5
-        if by.decrement <= 1e-9 * abs(search.cost):
+        if not is_damped and by.decrement <= 1e-9 * abs(search.cost):
             search.gain, search.converged = by.gain, True
             search.message = f"converged to rounding: {by.decrement:.1e} was to gain"
             return False

@@ -58,7 +58,9 @@ class Regulator:
 
     def __repr__(self) -> str:
         slowest = float(np.abs(self.multipliers).max())
-        return f"Regulator({self.gain.shape[0]} controls, a step takes the slowest to {slowest:.4g})"
+        return (
+            f"Regulator({self.gain.shape[0]} controls, a step takes the slowest to {slowest:.4g})"
+        )
 
 
 def lqr(
@@ -145,15 +147,16 @@ def doubled_riccati(A: Array, B: Array, Q: Array, R: Array) -> Array:
     """Return P = Q + A^T P (1 + G P)^-1 A with G = B R^-1 B^T."""
     G, H, one = B @ np.linalg.solve(R, B.T), Q.copy(), np.eye(len(A))
     for _ in range(60):  # 2^60 steps
+        before = H
         try:
-            W = np.linalg.inv(one + G @ H)
+            with np.errstate(over="ignore", invalid="ignore"):
+                W = np.linalg.inv(one + G @ H)
+                H = H + A.T @ H @ W @ A
+                G = G + A @ W @ G @ A.T
+                A = A @ W @ A
+                H, G = 0.5 * (H + H.T), 0.5 * (G + G.T)
         except np.linalg.LinAlgError:
             break
-        before = H
-        H = H + A.T @ H @ W @ A
-        G = G + A @ W @ G @ A.T
-        A = A @ W @ A
-        H, G = 0.5 * (H + H.T), 0.5 * (G + G.T)
         if not np.all(np.isfinite(H)):
             break
         if np.abs(H - before).max() <= 1e-15 * np.abs(H).max():
@@ -199,14 +202,23 @@ def lqr_along(
     """
     system, path = path_of(motion)
     cost = Quadratic(
-        system.model, path.states, q=q, v=v, control=control,
-        final_q=final_q, final_v=final_v, control_target=path.control,
+        system.model,
+        path.states,
+        q=q,
+        v=v,
+        control=control,
+        final_q=final_q,
+        final_v=final_v,
+        control_target=path.control,
     )
     limits = to_bounds(system.model, bounds)
     everywhere = np.full(system.model.n_u, np.inf)
     found = backward(
-        expand(system, cost, path), system.linearize(path), path.control,
-        (-everywhere, everywhere), 0.0,
+        expand(system, cost, path),
+        system.linearize(path),
+        path.control,
+        (-everywhere, everywhere),
+        0.0,
     )
     if found is None:
         raise ModelError("some control changes no cost; give control a positive weight")

@@ -311,8 +311,16 @@ def shoot(
     path = problem.path(x)
     last = float(np.abs(problem.misses(path)[0]).max())
     return Shot(
-        x, path.states[0], path.control, path.states, last, misses, last <= tolerance,
-        message, problem.jacobian(path)[1], system,
+        x,
+        path.states[0],
+        path.control,
+        path.states,
+        last,
+        misses,
+        last <= tolerance,
+        message,
+        problem.jacobian(path)[1],
+        system,
     )
 
 
@@ -400,7 +408,13 @@ def by_scipy(
     limits = (-np.inf, np.inf) if bounds is None else bounds
     try:
         found = least_squares(
-            fun, best.copy(), jac=jac, bounds=limits, max_nfev=iterations, xtol=1e-15, ftol=1e-15,
+            fun,
+            best.copy(),
+            jac=jac,
+            bounds=limits,
+            max_nfev=iterations,
+            xtol=1e-15,
+            ftol=1e-15,
             gtol=1e-15,
         )
     except Reached:

@@ -77,10 +77,22 @@ class System:
         self.options = dict(options)
         self.stepper = Stepper(model, h, record=True, **options)  # type: ignore[arg-type]
         self.balls = ball_blocks(model)
+        self.range = np.asarray(model.control_limits, dtype=float).reshape(-1, 2).T
 
     def advance(self, state: State, u: Array) -> State:
         """Return the state h later."""
         return self.stepper.advance(state, control=u if len(u) else None)
+
+    def inside(self, u: Array, by: float) -> Array:
+        """Return controls a little inside the actuators' ranges, beyond which they do nothing more.
+
+        A derivative at the very end of a range would be that of beyond.
+        """
+        low, high = self.range
+        sizes = np.maximum(
+            1.0, np.abs(self.range, where=np.isfinite(self.range), out=np.ones((2, len(low))))
+        )
+        return np.asarray(np.clip(u, low + by * sizes[0], high - by * sizes[1]))
 
     def roll(self, start: State, control: Array) -> Rollout:
         """Return the steps that controls make from a state."""
@@ -96,7 +108,7 @@ class System:
         A, B = np.empty((N, n, n)), np.empty((N, n, self.model.n_u))
         verdicts = []
         for k, u in enumerate(path.control):
-            self.advance(path.states[k], u)
+            self.advance(path.states[k], self.inside(u, 1e-13))
             try:
                 d = self.stepper.derivative()
             except ModelError as error:
