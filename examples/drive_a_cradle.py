@@ -2,7 +2,7 @@
 
 The motor pulls for 0.4 s with one torque, the unknown; the ball comes back and hits. Through two
 impulses at one instant the speed of the last ball, counted from its energy, has an exact derivative
-by that torque, and Newton's method finds it: 0.6743 N m.
+by that torque, and Newton's method finds it: 2.6743 N m.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """An acrobot, driven at its elbow alone, swings up and stands still upside down after 4 s.
 
-iLQR finds a way up, Newton's method the least effort, with decrements of the cost that converge
-quadratically. To end exactly upright, each plan aims off by what the one before missed.
+iLQR finds a way up, Newton's method the least effort: its decrements converge quadratically, 2e-5,
+3e-9, 1e-16. To end upright to 1e-8, each plan aims off by what the one before missed.
 """
 
 import numpy as np
@@ -34,5 +34,5 @@ for weight, tolerance in [(10, 1e-2), (100, 1e-4), *[(1e3, 1e-15)] * 7]:
     miss = np.concatenate([plan.q[-1], plan.v[-1]]) - up
     aim -= miss if weight == 1e3 else 0
     decrements = max(decrements, plan.decrements[-3:], key=len) if weight == 1e3 else []
-print(f"upside down, at rest: |x - x*| below 1e-8: {abs(miss).max() < 1e-8}, {abs(miss).max():.1e}")
+print(f"upside down, at rest: |x - x*| below 1e-8: {abs(miss).max() < 1e-8}")
 print("last decrements:", ", ".join(f"{each:.0e}" for each in decrements))

@@ -7,56 +7,15 @@ import math
 
 import numpy as np
 import pytest
-from scipy.linalg import solve_discrete_are
 from scipy.optimize import lsq_linear, minimize
+from tests.python.driven_models import acrobot, bouncer, cart, spinner
 
 import saltus
-from saltus import BodyInertia, ModelBuilder, ModelError, Pose, optimize
+from saltus import ModelError, optimize
 from saltus.optimize.costs import expand, total
 from saltus.optimize.curvature import Curvature
 from saltus.optimize.riccati import box_qp
 from saltus.optimize.system import System, difference_slopes
-
-
-def cart(**motor: float) -> saltus.Model:
-    """Return 2 kg on a rail, driven."""
-    builder = ModelBuilder().set_gravity((0, 0, 0))
-    builder.add_body("cart", saltus.Box((0.1, 0.1, 0.1)), mass=2.0, joint="prismatic")
-    return builder.add_motor("force", joint="cart", **motor).build()
-
-
-def acrobot(effort: float = math.inf) -> saltus.Model:
-    builder = ModelBuilder("acrobot")
-    for name, joint, parent, z in (
-        ("upper", "shoulder", "world", 0),
-        ("lower", "elbow", "upper", -1),
-    ):
-        builder.add_link(name, BodyInertia(1.0, (0, 0, -0.5), np.eye(3) / 12))
-        X = Pose((0, 0, z))
-        builder.add_joint(joint, "revolute", parent=parent, child=name, X_PJ=X, axis=(0, 1, 0))
-    return builder.add_motor("motor", joint="elbow", effort=effort).build()
-
-
-def bouncer() -> saltus.Model:
-    """Return a ball on a slide above a floor, pushed by a motor."""
-    builder = ModelBuilder().add_half_space("floor", (0, 0, 1))
-    X = Pose((0, 0, 0.3))
-    builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, X=X, joint="prismatic", axis=(0, 0, 1))
-    builder.set_default_contact(restitution=0.8)
-    return builder.add_motor("push", joint="ball").build()
-
-
-def spinner() -> saltus.Model:
-    """Return a body on a ball joint that carries a driven arm."""
-    builder = ModelBuilder()
-    builder.add_link("body", BodyInertia(1.0, (0, 0, -0.2), np.diag([0.03, 0.04, 0.05])))
-    builder.add_joint("ball", "spherical", parent="world", child="body")
-    builder.add_link("arm", BodyInertia(0.5, (0.3, 0, 0), 0.01 * np.eye(3)))
-    builder.add_joint(
-        "elbow", "revolute", parent="body", child="arm", X_PJ=Pose((0, 0, -0.3)), axis=(0, 1, 0)
-    )
-    return builder.add_motor("motor", joint="elbow").build()
-
 
 # -- the parts
 
@@ -125,62 +84,6 @@ def test_gradient_and_curvature_of_a_cost_against_differences(make):
             by[i, j] = value(a + b) - value(a - b) - value(b - a) + value(-a - b)
     by /= 4e-6
     assert np.allclose(H, by, atol=1e-4 * np.abs(by).max())  # 1e-6 by truncation, times the next
-
-
-# -- lqr
-
-
-def test_lqr_of_a_cart_is_the_solution_of_riccatis_equation():
-    model, h = cart(), 0.1
-    rule = optimize.lqr(model, model.state(), q=3.0, v=0.5, control=0.2, h=h)
-    m = 2.0  # q+ = q + h p/m + h^2 u / 2m, p+ = p + h u
-    A, B = np.array([[1, h / m], [0, 1]]), np.array([[h * h / (2 * m)], [h]])
-    P = solve_discrete_are(A, B, np.diag([3.0, 0.5 / m**2]), [[0.2]])
-    assert np.allclose(rule.to_go, P, rtol=1e-11)
-    K = -np.linalg.solve(0.2 + B.T @ P @ B, B.T @ P @ A)
-    assert np.allclose(rule.gain, K, rtol=1e-11)
-    assert np.allclose(rule.multipliers, np.linalg.eigvals(A + B @ K))
-
-
-def test_lqr_keeps_an_acrobot_up():
-    model = acrobot()
-    up = model.state({"shoulder": math.pi})
-    rule = optimize.lqr(model, up, q=1.0, v=1.0, control=1.0, h=0.01)
-    run = saltus.simulate(
-        model, {"shoulder": math.pi + 0.03}, duration=15.0, control=rule, progress=False
-    )
-    assert np.abs(model.difference(up.q, run.q[-1])).max() < 1e-6
-    # the sum of costs is the cost to go, near the target: 1e-4 of it is of higher order
-    near = model.state({"shoulder": math.pi + 1e-4})
-    run = saltus.simulate(model, state=near, duration=15.0, control=rule, progress=False)
-    dq = np.array([model.difference(up.q, q) for q in run.q[:-1]])
-    spent = 0.5 * float((dq**2).sum() + (run.v[:-1] ** 2).sum() + (run.control[:-1] ** 2).sum())
-    dx = np.concatenate([model.difference(up.q, near.q), near.p])
-    assert spent == pytest.approx(0.5 * dx @ rule.to_go @ dx, rel=1e-3)
-
-
-def test_lqr_says_what_is_wrong():
-    model = acrobot()
-    up = model.state({"shoulder": math.pi})
-    with pytest.raises(ModelError, match="no equilibrium: a step moves p of shoulder"):
-        optimize.lqr(model, model.state({"shoulder": 1.0}))
-    with pytest.raises(ModelError, match="control is not positive definite"):
-        optimize.lqr(model, up, control=0.0)
-    with pytest.raises(ModelError, match="q has shape"):
-        optimize.lqr(model, up, q=[1.0, 2.0, 3.0])
-    with pytest.raises(ModelError, match="its least eigenvalue is -1"):
-        optimize.lqr(model, up, q=[1.0, -1.0])
-    with pytest.raises(ModelError, match="no actuators"):
-        optimize.lqr(bare := ModelBuilder().build(), bare.state())
-
-
-def test_lqr_refuses_what_no_control_reaches():
-    builder = acrobot().builder()
-    builder.add_link("beside", BodyInertia(1.0, (0, 0, 1), np.eye(3) / 12))
-    builder.add_joint("hinge", "revolute", parent="world", child="beside", axis=(0, 1, 0))
-    model = builder.build()
-    with pytest.raises(ModelError, match="not reached"):
-        optimize.lqr(model, model.state({"shoulder": math.pi}))
 
 
 # -- ilqr
@@ -317,8 +220,8 @@ def test_residuals_are_a_cost_too():
         for cost in (weighted, optimize.Residuals(effort, miss))
     ]
     assert plans[0].cost == pytest.approx(plans[1].cost, rel=1e-9)
+    bad = optimize.Residuals(effort, lambda q, v: (v, np.eye(4)))
     with pytest.raises(ModelError, match=r"residuals of the last state are 2 with derivatives of"):
-        bad = optimize.Residuals(effort, lambda q, v: (v, np.eye(4)))
         optimize.ilqr(model, model.state(), bad, np.zeros((N, 1)), h=0.03)
 
 

@@ -76,6 +76,7 @@ ORDER = {
         "plan",
         "iterate",
         "regulate",
+        "reach",
         "shooting",
     ],
     "cli": ["commands", "looking", "main"],

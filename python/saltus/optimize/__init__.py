@@ -7,8 +7,9 @@ and along a motion, `shoot` a few unknowns that make a miss zero.
 from saltus.optimize.costs import Cost, Quadratic, Residuals
 from saltus.optimize.iterate import ilqr
 from saltus.optimize.plan import Plan, Policy
+from saltus.optimize.reach import Reach
 from saltus.optimize.regulate import Regulator, lqr, lqr_along
-from saltus.optimize.shooting import Reach, Shot, shoot
+from saltus.optimize.shooting import Shot, shoot
 
 __all__ = [
     "Cost",

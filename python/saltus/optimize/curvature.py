@@ -33,7 +33,7 @@ class Curvature:
             moved = system.model.difference(self.path.states[k + 1].q, end.q)
             q_hat = difference_slopes(system.balls, moved).T @ q_hat
         back = system.stepper.vjp(q_hat, after[n:])
-        return own + np.concatenate([back.q, back.p, back.control])
+        return np.asarray(own + np.concatenate([back.q, back.p, back.control]))
 
     def __call__(self, k: int, after: Array) -> Array:
         """Return the Hessian of step k, (2 n_v + n_u, 2 n_v + n_u)."""

@@ -160,7 +160,7 @@ def doubled_riccati(A: Array, B: Array, Q: Array, R: Array) -> Array:
         if not np.all(np.isfinite(H)):
             break
         if np.abs(H - before).max() <= 1e-15 * np.abs(H).max():
-            return H
+            return np.asarray(H)
     raise ModelError(
         "Riccati's equation has no solution: a mode that is unstable is not reached by the "
         "controls, or a mode that does not die out has no weight"

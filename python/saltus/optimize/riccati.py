@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from saltus.optimize.costs import Expansions
 from saltus.optimize.curvature import Curvature
@@ -35,7 +36,9 @@ class Feedback:
         return -(self.linear + self.square)
 
 
-def box_qp(H: Array, g: Array, low: Array, high: Array) -> tuple[Array, Array] | None:
+def box_qp(
+    H: Array, g: Array, low: Array, high: Array
+) -> tuple[Array, npt.NDArray[np.bool_]] | None:
     """Minimise g.x + x.H x / 2 with low <= x <= high, by projected Newton steps.
 
     Returns
