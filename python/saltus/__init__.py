@@ -13,7 +13,7 @@ Units are SI. Coordinates have shape `(n_q,)`, velocities and momenta `(n_v,)`, 
 `law="shadow_energy"`.
 """
 
-from saltus import scenes
+from saltus import optimize, scenes
 from saltus._core import (
     AdjacentLinks,
     At,
@@ -203,6 +203,7 @@ __all__ = [
     "load",
     "load_urdf",
     "model_tree",
+    "optimize",
     "read_urdf",
     "resolve_impact",
     "resolve_overlap",

@@ -19,7 +19,8 @@ ROOMS["records"] = {"_core", "urdf"}
 ROOMS["plots"] = {"_core", "records"}
 ROOMS["view"] = {"_core", "records"}
 ROOMS["runs"] = {"_core", "records", "plots", "view"}
-ROOMS["saltus"] = {"_core", "paths", "scenes", "urdf", "records", "runs"}
+ROOMS["optimize"] = {"_core", "runs"}
+ROOMS["saltus"] = {"_core", "paths", "scenes", "urdf", "records", "runs", "optimize"}
 ROOMS["cli"] = {"saltus", "records", "plots", "view"}
 ROOMS["__main__"] = {"cli"}
 ROOMS["plots_cradle"] = ROOMS["plots_impacts"] = ROOMS["plots_pairs"] = {"plots"}  # old paths
@@ -67,6 +68,17 @@ ORDER = {
         "moment",
         "simulate",
         "batch",
+    ],
+    "optimize": [
+        "system",
+        "costs",
+        "curvature",
+        "riccati",
+        "plan",
+        "iterate",
+        "regulate",
+        "reach",
+        "shooting",
     ],
     "cli": ["commands", "looking", "main"],
 }

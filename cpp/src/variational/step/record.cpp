@@ -71,7 +71,7 @@ void Stepper::Impl::record_arc(double asked, double left, const Launch* launch) 
     if (row.is_joint()) {
       refuse("joints with dry friction");
     } else if (row.is_pressed()) {
-      if (node.contacts[static_cast<std::size_t>(row.contact)].friction > 0) {
+      if (contact_of(node, row).friction > 0) {
         refuse("contacts with friction that are held");
       }
       record_row(row, row.p[0], next_of(to.held, to.n_held));

@@ -1,0 +1,72 @@
+"""Second derivatives of cost and step by central differences of their exact gradients."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from saltus._core import State
+from saltus.optimize.costs import Cost, to_state
+from saltus.optimize.system import Array, Rollout, System, difference_slopes
+
+# Of central differences of a gradient: (machine epsilon)^(1/3).
+STEP = 6e-6
+
+
+class Curvature:
+    """The Hessian of l_k + V_x . F by x = (q, p) and u, for each step of a rollout.
+
+    Differences of gradients, in a chart about the rollout's own states. A ball's gradient is along
+    turns and no chart's; the antisymmetric part is what that adds, and is left out.
+    """
+
+    def __init__(self, system: System, cost: Cost, path: Rollout) -> None:
+        self.system, self.cost, self.path = system, cost, path
+
+    def gradient(self, k: int, x: State, u: Array, after: Array) -> Array:
+        """Return the gradient by (q, p, u) of step k's cost and of `after` . F."""
+        system, n = self.system, self.system.model.n_v
+        term = self.cost.stage(k, x.q, system.model.velocity(x), u)
+        own = to_state(system, x, term[1], term[2])[0]
+        end = system.advance(x, u)
+        q_hat = after[:n]
+        if system.balls:
+            moved = system.model.difference(self.path.states[k + 1].q, end.q)
+            q_hat = difference_slopes(system.balls, moved).T @ q_hat
+        back = system.stepper.vjp(q_hat, after[n:])
+        return np.asarray(own + np.concatenate([back.q, back.p, back.control]))
+
+    def __call__(self, k: int, after: Array) -> Array:
+        """Return the Hessian of step k, (2 n_v + n_u, 2 n_v + n_u)."""
+        x = self.path.states[k]
+        u = self.system.inside(self.path.control[k], 2 * STEP)
+        n, m = 2 * self.system.model.n_v, len(u)
+        scale = np.concatenate(
+            [np.ones(n // 2), np.maximum(np.abs(x.p), 1), np.maximum(np.abs(u), 1)]
+        )
+        columns = []
+        for i in range(n + m):
+            sides = []
+            for sign in (1.0, -1.0):
+                d = np.zeros(n + m)
+                d[i] = sign * STEP * scale[i]
+                sides.append(self.gradient(k, self.system.shift(x, d[:n]), u + d[n:], after))
+            columns.append((sides[0] - sides[1]) / (2 * STEP * scale[i]))
+        H = np.stack(columns, axis=1)
+        return np.asarray(0.5 * (H + H.T))
+
+    def of_the_end(self) -> Array:
+        """Return the Hessian of the last state's cost, (2 n_v, 2 n_v)."""
+        x, n = self.path.states[-1], 2 * self.system.model.n_v
+        columns = []
+        for i in range(n):
+            sides = []
+            scale = 1.0 if i < n // 2 else max(1.0, float(np.abs(x.p).max()))
+            for sign in (1.0, -1.0):
+                d = np.zeros(n)
+                d[i] = sign * STEP * scale
+                y = self.system.shift(x, d)
+                term = self.cost.final(y.q, self.system.model.velocity(y))
+                sides.append(to_state(self.system, y, term[1], term[2])[0])
+            columns.append((sides[0] - sides[1]) / (2 * STEP * scale))
+        H = np.stack(columns, axis=1)
+        return np.asarray(0.5 * (H + H.T))

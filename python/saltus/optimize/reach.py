@@ -1,0 +1,121 @@
+"""What a shot is to reach, and what of it is unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from saltus._core import Model, ModelError
+from saltus.optimize.system import Array
+
+MissFunction = Callable[[Array, Array], tuple[npt.ArrayLike, npt.ArrayLike]]
+
+
+class Reach:
+    """How far the last state is from values of some coordinates and velocities.
+
+    Parameters
+    ----------
+    model : Model
+    q : mapping of coordinates' names to values, optional
+        [rad | m] not of a quaternion: a function of one's own compares orientations.
+    v : mapping of velocities' names to values, optional
+        [rad/s | m/s]
+
+    Raises
+    ------
+    ModelError
+        On an unknown name, a part of a quaternion, or where nothing is to reach.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        q: Mapping[str, float] | None = None,
+        v: Mapping[str, float] | None = None,
+    ) -> None:
+        rows, goals = [], []
+        for name, value in (q or {}).items():
+            i = model.coordinate(name)
+            at = [j for j, each in enumerate(model.velocity_names) if moves(model, i, each, j)]
+            if not at:
+                raise ModelError(
+                    f"q of {name} is a part of a quaternion; a function (q, v) to misses and their "
+                    "derivatives compares orientations"
+                )
+            rows.append((i, at[0]))
+            goals.append(float(value))
+        self.q, n_q = rows, len(rows)
+        self.v = [model.velocity_index(name) for name in (v or {})]
+        goals += [float(value) for value in (v or {}).values()]
+        if not goals:
+            raise ModelError("there is nothing to reach; give q or v, mappings of names to values")
+        self.goals = np.array(goals)
+        self.slopes = np.zeros((len(goals), 2 * model.n_v))
+        for row, (_, j) in enumerate(rows):
+            self.slopes[row, j] = 1
+        for row, j in enumerate(self.v):
+            self.slopes[n_q + row, model.n_v + j] = 1
+
+    def __call__(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """Return the misses, (r,), and their derivatives by q and v, (r, 2 n_v)."""
+        at = np.concatenate([[q[i] for i, _ in self.q], v[self.v]])
+        return at - self.goals, self.slopes
+
+
+def moves(model: Model, i: int, velocity: str, j: int) -> bool:
+    """Whether velocity j is the rate of coordinate i."""
+    dv = np.zeros(model.n_v)
+    dv[j] = 1e-3
+    q = model.neutral()
+    return abs(model.integrate(q, dv)[i] - q[i] - 1e-3) < 1e-12 and bool(velocity)
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """How x moves the start and the controls: q along by_q x, v by by_v x, u by by_control x."""
+
+    by_q: Array  # (n_v, m)
+    by_v: Array  # (n_v, m)
+    by_control: Array  # (N, n_u, m)
+
+    @property
+    def m(self) -> int:
+        """How many there are."""
+        return int(self.by_q.shape[1])
+
+
+def to_unknowns(
+    model: Model,
+    N: int,
+    by_q: npt.ArrayLike | None,
+    by_v: npt.ArrayLike | None,
+    by_control: npt.ArrayLike | None,
+) -> Unknowns:
+    """Return the unknowns; where none are told, every control is one."""
+    n, n_u = model.n_v, model.n_u
+    if by_q is None and by_v is None and by_control is None:
+        by_control = np.eye(N * n_u).reshape(N, n_u, N * n_u)
+    shapes = {"by_q": (n,), "by_v": (n,), "by_control": (N, n_u)}
+    given = {
+        name: np.asarray(x, dtype=float)
+        for name, x in (("by_q", by_q), ("by_v", by_v), ("by_control", by_control))
+        if x is not None
+    }
+    for name, x in given.items():
+        if x.shape == shapes[name]:
+            given[name] = x[..., None]
+        elif x.shape[:-1] != shapes[name]:
+            raise ModelError(
+                f"{name} has shape {x.shape}; it is {(*shapes[name], 'm')}, the last index counts "
+                "the unknowns"
+            )
+    sizes = {name: x.shape[-1] for name, x in given.items()}
+    m = next(iter(sizes.values()))
+    if m == 0 or set(sizes.values()) != {m}:
+        raise ModelError(f"the last index counts the unknowns, and it differs: {sizes}")
+    empty = {name: np.zeros((*shape, m)) for name, shape in shapes.items()}
+    return Unknowns(**{**empty, **given})

@@ -1,0 +1,317 @@
+"""Shooting: a few unknowns that make a miss zero, by Newton's method through impacts."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from saltus._core import Model, ModelError, Smoothness, State, StepError
+from saltus.optimize.iterate import check_numbers
+from saltus.optimize.reach import MissFunction, Unknowns, to_unknowns
+from saltus.optimize.system import Array, Rollout, System, to_controls
+from saltus.runs.progress import Progress, progress_bar
+from saltus.runs.simulate import simulate
+from saltus.runs.trajectory import Trajectory
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Shot:
+    """What `shoot` found.
+
+    Attributes
+    ----------
+    x : numpy.ndarray, shape (m,)
+        The unknowns.
+    start : State
+    control : numpy.ndarray, shape (N, n_u)
+    states : list of State
+        N + 1 of them.
+    miss : float
+        The largest of the last misses.
+    misses : list of float
+        Before the first iteration, and after each.
+    converged : bool
+    message : str
+        Why it ended.
+    smoothness : list of Smoothness
+        The verdict on the derivative of each step.
+    """
+
+    x: Array
+    start: State
+    control: Array
+    states: list[State]
+    miss: float
+    misses: list[float]
+    converged: bool
+    message: str
+    smoothness: list[Smoothness]
+    _system: System
+
+    def run(self) -> Trajectory:
+        """Return the motion as a run, to plot, save and play."""
+        system = self._system
+        return simulate(
+            system.model,
+            duration=len(self.control) * system.h,
+            h=system.h,
+            state=self.start,
+            control=self.control if system.model.n_u > 0 else None,
+            progress=False,
+            **system.options,  # type: ignore[arg-type]
+        )
+
+    def __repr__(self) -> str:
+        return f"Shot(miss {self.miss:.1e}, {len(self.misses) - 1} iterations: {self.message})"
+
+
+@dataclass
+class Shooting:
+    """A problem: what the motion starts from and what it is to reach."""
+
+    system: System
+    start: State
+    control: Array
+    unknowns: Unknowns
+    miss: MissFunction
+
+    def path(self, x: Array) -> Rollout:
+        """Return the motion that unknowns make."""
+        model, by = self.system.model, self.unknowns
+        start = model.state(
+            model.integrate(self.start.q, by.by_q @ x),
+            model.velocity(self.start) + by.by_v @ x,
+            self.start.t,
+        )
+        return self.system.roll(start, self.control + by.by_control @ x)
+
+    def misses(self, path: Rollout) -> tuple[Array, Array]:
+        """Return the misses, (r,), and their derivatives by q and v of the last state."""
+        end = path.states[-1]
+        r, J = self.miss(end.q, self.system.model.velocity(end))
+        residual, n = np.atleast_1d(np.asarray(r, dtype=float)), 2 * self.system.model.n_v
+        slopes = np.asarray(J, dtype=float)
+        if slopes.shape != (len(residual), n):
+            raise ModelError(
+                f"miss returned {len(residual)} misses with derivatives of shape {slopes.shape}; "
+                f"they are ({len(residual)}, {n}), columns q, along velocities, then v"
+            )
+        return residual, slopes
+
+    def jacobian(self, path: Rollout) -> tuple[Array, list[Smoothness]]:
+        """Return the derivative of the misses by the unknowns, (r, m), and verdicts on steps."""
+        system, by = self.system, self.unknowns
+        n = system.model.n_v
+        start, end = path.states[0], path.states[-1]
+        L = system.model.lagrangian(start.q, system.model.velocity(start))
+        slopes = system.linearize(path)
+        dx = np.vstack([by.by_q, L.L_vq @ by.by_q + L.L_vv @ by.by_v])
+        for A, B, du in zip(slopes.A, slopes.B, by.by_control, strict=True):
+            dx = A @ dx + B @ du
+        dv = system.velocity_slopes(end)[1] @ dx
+        J = self.misses(path)[1]
+        return J[:, :n] @ dx[:n] + J[:, n:] @ dv, slopes.smoothness
+
+
+def shoot(
+    model: Model,
+    start: State,
+    controls: npt.ArrayLike | int,
+    miss: MissFunction,
+    *,
+    h: float = 0.01,
+    by_q: npt.ArrayLike | None = None,
+    by_v: npt.ArrayLike | None = None,
+    by_control: npt.ArrayLike | None = None,
+    iterations: int = 50,
+    tolerance: float = 1e-12,
+    method: str = "newton",
+    bounds: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    progress: bool | Progress | None = None,
+    **options: object,
+) -> Shot:
+    """Find unknowns of a start and of controls that make misses of the last state zero.
+
+    Newton's method on the exact derivatives of the steps: of fewer misses than unknowns the
+    shortest step, of more the least squares. Each step is halved until it makes the misses less,
+    so that an impact which the motion needs is not lost.
+
+    Parameters
+    ----------
+    model : Model
+    start : State
+        The guess.
+    controls : array_like, shape (N, n_u), or int
+        The guess, a row for each step; or N, where controls are 0.
+    miss : callable
+        `(q, v)` of the last state to misses (r,) and their derivatives (r, 2 n_v) by q, along
+        velocities, and v. `Reach` is one.
+    h : float
+        [s] time step.
+    by_q, by_v : array_like, shape (n_v, m), optional
+        How the m unknowns x move the start: q along by_q x, v by by_v x.
+    by_control : array_like, shape (N, n_u, m), optional
+        Likewise for the controls. Where none of the three is given, every control is an unknown.
+    iterations : int
+        At most.
+    tolerance : float
+        Of the largest miss.
+    method : str
+        "newton", or "least_squares" of SciPy, with `bounds`.
+    bounds : tuple of two array_like, shape (m,), optional
+        Least and greatest x, which are 0 at the guess. For "least_squares" alone.
+    progress : bool or callable, optional
+        As in `simulate`; the completed fraction of `iterations`.
+    **options
+        Further options of `Stepper`.
+
+    Returns
+    -------
+    Shot
+        The best found, also where it is not `converged`: `message` says why it ended.
+
+    Raises
+    ------
+    ModelError
+        Where arguments do not fit, the misses do not depend on the unknowns, or a step has no
+        derivative: which step, and why.
+    StepError
+        Where a step from the guess fails.
+    """
+    system = System(model, h, options)
+    check_numbers(start, {"iterations": iterations, "tolerance": tolerance})
+    if isinstance(controls, int):
+        check_numbers(start, {"controls": controls})
+        guess = np.zeros((controls, model.n_u))
+    else:
+        guess = to_controls(model, controls)
+    unknowns = to_unknowns(model, len(guess), by_q, by_v, by_control)
+    problem = Shooting(system, start, guess, unknowns, miss)
+    if method == "least_squares":
+        x, misses, message = by_scipy(problem, bounds, iterations, tolerance)
+    elif method == "newton":
+        if bounds is not None:
+            raise ModelError('bounds are for method="least_squares"; Newton\'s has none')
+        with progress_bar(progress, iterations, "iterations") as report:
+            x, misses, message = by_newton(problem, iterations, tolerance, report)
+    else:
+        raise ModelError(f'method is {method!r}; it is "newton" or "least_squares"')
+    path = problem.path(x)
+    last = float(np.abs(problem.misses(path)[0]).max())
+    return Shot(
+        x,
+        path.states[0],
+        path.control,
+        path.states,
+        last,
+        misses,
+        last <= tolerance,
+        message,
+        problem.jacobian(path)[1],
+        system,
+    )
+
+
+def by_newton(
+    problem: Shooting, iterations: int, tolerance: float, report: Progress | None
+) -> tuple[Array, list[float], str]:
+    """Return the unknowns, the misses on the way, and why it ended."""
+    x = np.zeros(problem.unknowns.m)
+    path = problem.path(x)
+    r = problem.misses(path)[0]
+    misses = [float(np.abs(r).max())]
+    message = f"{iterations} iterations were not enough"
+    try:
+        for i in range(iterations):
+            if misses[-1] <= tolerance:
+                break
+            J = problem.jacobian(path)[0]
+            step = np.asarray(-np.linalg.lstsq(J, r, rcond=1e-13)[0], dtype=float)
+            if not np.any(J):
+                raise ModelError(
+                    "the misses do not depend on the unknowns: a motion that hits nothing has no "
+                    "derivative by what it would hit; start from one that does"
+                )
+            found = shorter(problem, x, step, r)
+            if found is None:
+                message = f"no part of Newton's step makes the miss of {misses[-1]:.1e} less"
+                break
+            x, path, r = found
+            misses.append(float(np.abs(r).max()))
+            if report is not None:
+                report((i + 1) / iterations)
+    except KeyboardInterrupt:
+        message = f"stopped after {len(misses) - 1} iterations"
+        print(f"saltus: {message}; the shot is the best so far", file=sys.stderr)
+    if misses[-1] <= tolerance:
+        message = "converged"
+    return x, misses, message
+
+
+def shorter(
+    problem: Shooting, x: Array, step: Array, r: Array
+) -> tuple[Array, Rollout, Array] | None:
+    """Return the longest part 1, 1/2, 1/4 ... of a step that makes the misses less."""
+    alpha = 1.0
+    while alpha >= 2.0**-20:
+        trial = x + alpha * step
+        try:
+            path = problem.path(trial)
+            new = problem.misses(path)[0]
+            if np.linalg.norm(new) < (1 - 1e-4 * alpha) * np.linalg.norm(r):
+                return trial, path, new
+        except StepError:
+            pass  # as a miss
+        alpha *= 0.5
+    return None
+
+
+def by_scipy(
+    problem: Shooting,
+    bounds: tuple[npt.ArrayLike, npt.ArrayLike] | None,
+    iterations: int,
+    tolerance: float,
+) -> tuple[Array, list[float], str]:
+    """Return what SciPy's trust regions find."""
+    try:
+        from scipy.optimize import least_squares
+    except ImportError as error:
+        raise ImportError(
+            'method="least_squares" needs SciPy: pip install scipy; method="newton" needs nothing'
+        ) from error
+    misses: list[float] = []
+    best = np.zeros(problem.unknowns.m)
+
+    def fun(x: Array) -> Array:
+        return problem.misses(problem.path(x))[0]
+
+    def jac(x: Array) -> Array:
+        best[:] = x
+        path = problem.path(x)
+        misses.append(float(np.abs(problem.misses(path)[0]).max()))
+        if misses[-1] <= tolerance:
+            raise Reached
+        return problem.jacobian(path)[0]
+
+    limits = (-np.inf, np.inf) if bounds is None else bounds
+    try:
+        found = least_squares(
+            fun,
+            best.copy(),
+            jac=jac,
+            bounds=limits,
+            max_nfev=iterations,
+            xtol=1e-15,
+            ftol=1e-15,
+            gtol=1e-15,
+        )
+    except Reached:
+        return best, misses, "converged"
+    return np.asarray(found.x), misses, str(found.message)
+
+
+class Reached(Exception):
+    """The misses are small enough: SciPy's own tolerances are none of theirs."""

@@ -1,0 +1,271 @@
+"""Optimal control on exact derivatives: against closed forms, differences and other ways."""
+
+from __future__ import annotations
+
+import _thread
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import lsq_linear, minimize
+from tests.python.driven_models import acrobot, bouncer, cart, spinner
+
+import saltus
+from saltus import ModelError, optimize
+from saltus.optimize.costs import expand, total
+from saltus.optimize.curvature import Curvature
+from saltus.optimize.riccati import box_qp
+from saltus.optimize.system import System, difference_slopes
+
+# -- the parts
+
+
+def test_box_qp_against_another_solver():
+    rng = np.random.default_rng(0)
+    for _ in range(50):
+        n = int(rng.integers(1, 6))
+        R, g = rng.normal(size=(n + 2, n)), rng.normal(size=n)
+        low, high = -rng.uniform(0, 0.5, n), rng.uniform(0, 0.5, n)
+        found = box_qp(R.T @ R, g, low, high)
+        assert found is not None
+        b = -np.linalg.lstsq(R.T, g, rcond=None)[0]
+        other = lsq_linear(R, b, bounds=(low, high + 1e-300), tol=1e-14, method="bvls")
+        assert np.allclose(found[0], other.x, atol=1e-9)
+    assert box_qp(np.diag([1.0, -1.0]), np.ones(2), -np.ones(2), np.ones(2)) is None
+
+
+def test_a_difference_of_turns_moves_as_its_slopes_say():
+    model = spinner()
+    system, rng = System(model, 0.01, {}), np.random.default_rng(1)
+    for size in (1e-5, 0.3, 2.0):
+        goal = model.integrate(model.neutral(), rng.normal(size=4))
+        dq = rng.normal(size=4)
+        dq *= size / np.linalg.norm(dq[:3])
+        q = model.integrate(goal, dq)
+        J = difference_slopes(system.balls, model.difference(goal, q))
+        for i, eta in enumerate(1e-5 * np.eye(4)):
+            ahead, behind = (model.integrate(q, s * eta) for s in (1, -1))
+            by = (model.difference(goal, ahead) - model.difference(goal, behind)) / 2e-5
+            assert np.allclose(J[:, i], by, atol=1e-9)  # 1e-10 by truncation
+
+
+@pytest.mark.parametrize("make", [acrobot, bouncer, spinner])
+def test_gradient_and_curvature_of_a_cost_against_differences(make):
+    model, h = make(), 0.02
+    system, rng = System(model, h, {}), np.random.default_rng(2)
+    n, m = 2 * model.n_v, model.n_u
+    goal = model.state(model.integrate(model.neutral(), 0.5 * rng.normal(size=model.n_v)))
+    weights = {"q": 1.0, "v": 0.3, "control": 0.1, "final_q": 2.0, "final_v": 0.7}
+    cost = optimize.Quadratic(model, goal, **weights)
+    q = model.integrate(model.neutral(), 0.2 * np.abs(rng.normal(size=model.n_v)))
+    start = model.state(q, rng.normal(size=model.n_v))
+    path = system.roll(start, rng.normal(size=(1, m)))
+
+    def value(z: np.ndarray) -> float:
+        moved = system.roll(system.shift(start, z[:n]), path.control + z[n:])
+        return total(system, cost, moved)
+
+    terms, slopes = expand(system, cost, path), system.linearize(path)
+    after = terms.x[1]
+    gradient = np.concatenate(
+        [terms.x[0] + slopes.A[0].T @ after, terms.u[0] + slopes.B[0].T @ after]
+    )
+    e = 1e-5 * np.eye(n + m)
+    by = np.array([value(d) - value(-d) for d in e]) / 2e-5
+    assert np.allclose(gradient, by, atol=1e-8 * max(1, np.abs(by).max()))
+    # l + V_x . F plus F_x^T V_xx F_x is all of the second derivative
+    bent = Curvature(system, cost, path)
+    F = np.hstack([slopes.A[0], slopes.B[0]])
+    H = bent(0, after) + F.T @ bent.of_the_end() @ F
+    by = np.zeros_like(H)
+    e = 1e-3 * np.eye(n + m)
+    for i, a in enumerate(e):
+        for j, b in enumerate(e):
+            by[i, j] = value(a + b) - value(a - b) - value(b - a) + value(-a - b)
+    by /= 4e-6
+    assert np.allclose(H, by, atol=1e-4 * np.abs(by).max())  # 1e-6 by truncation, times the next
+
+
+# -- ilqr
+
+
+def test_a_linear_problem_takes_one_iteration():
+    model, h, N = cart(), 0.1, 20
+    start, goal = model.state(q=[1.0]), model.state()
+    cost = optimize.Quadratic(model, goal, q=1.0, control=0.1, final_q=5.0, final_v=5.0)
+    plan = optimize.ilqr(model, start, cost, np.zeros((N, 1)), h=h)
+    assert plan.converged
+    assert len(plan.costs) == 2
+    system = System(model, h, {})
+    other = minimize(
+        lambda u: total(system, cost, system.roll(start, u[:, None])), np.zeros(N), tol=1e-12
+    )
+    assert plan.cost == pytest.approx(other.fun, rel=1e-9)
+
+
+def test_bounds_hold_and_the_rest_is_at_its_best():
+    model, h, N = cart(effort=2.0), 0.1, 20
+    start, goal = model.state(q=[1.0]), model.state()
+    cost = optimize.Quadratic(model, goal, control=0.1, final_q=50.0, final_v=50.0)
+    plan = optimize.ilqr(model, start, cost, np.zeros((N, 1)), h=h)
+    assert plan.converged
+    u = plan.control[:, 0]
+    assert np.all(np.abs(u) <= 2.0)
+    assert 2 <= np.sum(np.abs(u) == 2.0) < N
+    assert np.all(plan.gain[np.abs(u) == 2.0] == 0)
+    system = System(model, h, {})
+    other = minimize(
+        lambda u: total(system, cost, system.roll(start, u[:, None])),
+        np.zeros(N),
+        bounds=[(-2.0, 2.0)] * N,
+        method="L-BFGS-B",
+        options={"ftol": 1e-15, "gtol": 1e-9},
+    )
+    assert plan.cost == pytest.approx(other.fun, rel=1e-7)
+    narrow = optimize.ilqr(model, start, cost, np.zeros((N, 1)), h=h, bounds=(-0.5, 0.25))
+    assert narrow.control.min() == -0.5
+    assert narrow.control.max() == 0.25
+
+
+def test_newton_converges_quadratically_where_gauss_and_newton_do_linearly():
+    model = acrobot()
+    start, goal = model.state(), model.state({"shoulder": 1.0})
+    cost = optimize.Quadratic(model, goal, control=0.1, final_q=10.0, final_v=10.0)
+    found = {}
+    for second_order in (False, True):
+        found[second_order] = optimize.ilqr(
+            model,
+            start,
+            cost,
+            np.zeros((40, 1)),
+            h=0.03,
+            tolerance=1e-13,
+            second_order=second_order,
+        )
+    gauss, newton = found[False], found[True]
+    assert newton.converged
+    assert newton.cost == pytest.approx(gauss.cost, rel=1e-9)
+    a, b, c = newton.decrements[-3:]
+    # a decrement d is as the square of the distance: quadratic is d+ ~ d^2, ratio b/a squares
+    assert c / b < (b / a) ** 1.5
+    assert len(newton.costs) < len(gauss.costs)
+
+
+def test_ilqr_moves_an_impact():
+    # Thrown down at the floor, the ball is to be at 0.25 m, at rest, after one bounce.
+    model, h, N = bouncer(), 0.02, 25
+    start = model.state(v=[-2.0])
+    goal = model.state(q=[0.25])
+    cost = optimize.Quadratic(model, goal, control=1e-3, final_q=1e3, final_v=1e3)
+    plan = optimize.ilqr(model, start, cost, np.full((N, 1), 5.0), h=h)
+    assert plan.converged
+    assert sum(plan.impacts.values()) == 1
+    assert abs(plan.q[-1, 0] - 0.25) < 1e-3
+    system = System(model, h, {})
+    best = total(system, cost, system.roll(start, plan.control))
+    for k in range(N):  # no control can be better by itself
+        for e in (1e-3, -1e-3):
+            u = plan.control.copy()
+            u[k] += e
+            assert total(system, cost, system.roll(start, u)) > best - 1e-12
+    # the run that simulate makes of it
+    run = plan.run()
+    assert np.abs(run.q - plan.q).max() < 1e-10
+    # feedback mends another start, also while its impact is earlier or later than the plan's
+    near = model.state(q=[0.02], v=[-2.0])
+    bare = saltus.simulate(
+        model, state=near, duration=N * h, h=h, control=plan.control, progress=False
+    )
+    held = plan.run(near)
+    assert abs(held.q[-1, 0] - 0.25) < 0.2 * abs(bare.q[-1, 0] - 0.25)
+    kept = optimize.lqr_along(run, q=10.0, v=1.0, control=1e-3, final_q=1e3, final_v=1e3)
+    held = saltus.simulate(model, state=near, duration=N * h, h=h, control=kept, progress=False)
+    assert abs(held.q[-1, 0] - 0.25) < 0.2 * abs(bare.q[-1, 0] - 0.25)
+
+
+def test_feedback_is_left_out_where_impacts_differ():
+    model, h, N = bouncer(), 0.02, 25
+    start = model.state(v=[-2.0])
+    cost = optimize.Quadratic(model, model.state(q=[0.25]), control=1e-3, final_q=1e3)
+    policy = optimize.ilqr(model, start, cost, np.full((N, 1), 5.0), h=h).policy
+    k = next(k for k in range(N) if policy.path.impacts[k])
+    other = System(model, h, {}).shift(policy.path.states[k], np.array([0.01, 0.0]))
+    assert policy.at(k, other, {}) == policy.path.control[k]
+    moved = policy.at(k, other, policy.path.impacts[k]) - policy.path.control[k]
+    assert moved == pytest.approx(policy.gain[k, :, 0] * 0.01)
+
+
+def test_ilqr_turns_a_ball_joint():
+    model = spinner()
+    goal = model.state(model.integrate(model.neutral(), [0.0, 0.4, 0.0, -0.5]))
+    cost = optimize.Quadratic(model, goal, control=0.01, final_q=100.0, final_v=1.0)
+    plan = optimize.ilqr(model, model.state(), cost, np.zeros((50, 1)), h=0.02)
+    assert plan.converged
+    assert np.abs(model.difference(goal.q, plan.q[-1])).max() < 0.05
+
+
+def test_residuals_are_a_cost_too():
+    model, N = acrobot(), 30
+    goal = model.state({"shoulder": 0.5})
+    weighted = optimize.Quadratic(model, goal, control=0.1, final_q=10.0, final_v=10.0)
+
+    def effort(k, q, v, u):
+        return math.sqrt(0.1) * u, math.sqrt(0.1) * np.eye(1, 5, 4)
+
+    def miss(q, v):
+        return math.sqrt(10) * np.concatenate([q - goal.q, v]), math.sqrt(10) * np.eye(4)
+
+    plans = [
+        optimize.ilqr(model, model.state(), cost, np.zeros((N, 1)), h=0.03)
+        for cost in (weighted, optimize.Residuals(effort, miss))
+    ]
+    assert plans[0].cost == pytest.approx(plans[1].cost, rel=1e-9)
+    bad = optimize.Residuals(effort, lambda q, v: (v, np.eye(4)))
+    with pytest.raises(ModelError, match=r"residuals of the last state are 2 with derivatives of"):
+        optimize.ilqr(model, model.state(), bad, np.zeros((N, 1)), h=0.03)
+
+
+def test_ctrl_c_keeps_the_best_so_far(capsys):
+    model = acrobot()
+    cost = optimize.Quadratic(model, model.state({"shoulder": 1.0}), control=0.1, final_q=10.0)
+    parts = []
+
+    def stop(part: float) -> None:
+        parts.append(part)
+        if len(parts) == 2:
+            _thread.interrupt_main()
+
+    plan = optimize.ilqr(
+        model, model.state(), cost, np.zeros((40, 1)), h=0.03, iterations=50, progress=stop
+    )
+    assert parts == [1 / 50, 2 / 50]
+    assert not plan.converged
+    assert plan.message == "stopped after 2 iterations"
+    assert plan.cost == min(plan.costs) < plan.costs[0]
+    assert "best so far" in capsys.readouterr().err
+
+
+def test_ilqr_says_what_is_wrong():
+    model = acrobot()
+    cost = optimize.Quadratic(model, model.state(), control=1.0)
+    start, zeros = model.state(), np.zeros((5, 1))
+    with pytest.raises(ModelError, match=r"controls have shape \(5, 2\); they are \(steps, n_u\)"):
+        optimize.ilqr(model, start, cost, np.zeros((5, 2)))
+    with pytest.raises(ModelError, match="controls of step 3 are not finite"):
+        optimize.ilqr(model, start, cost, [0, 0, 0, math.nan, 0])
+    with pytest.raises(ModelError, match="bounds of motor: the least, 1, is above the greatest, 0"):
+        optimize.ilqr(model, start, cost, zeros, bounds=(1, 0))
+    with pytest.raises(ModelError, match="iterations is 0"):
+        optimize.ilqr(model, start, cost, zeros, iterations=0)
+    with pytest.raises(TypeError, match="start is a list"):
+        optimize.ilqr(model, [0, 0], cost, zeros)
+    with pytest.raises(TypeError, match="model is a str"):
+        optimize.ilqr("acrobot", start, cost, zeros)
+    short = optimize.ilqr(
+        model,
+        model.state({"shoulder": 1.0}),
+        optimize.Quadratic(model, model.state(), q=1.0, control=0.1),
+        np.zeros((20, 1)),
+        iterations=1,
+    )
+    assert short.message == "1 iterations were not enough"
