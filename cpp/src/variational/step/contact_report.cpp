@@ -1,6 +1,7 @@
 #include "variational/step/contact_report.hpp"
 
 #include <algorithm>
+#include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
 namespace {
@@ -35,6 +36,10 @@ void tell_residual(const ContactBlocks& W, double residual, StepReport& report) 
 }
 
 }  // namespace
+
+const StepReport& Stepper::report() const { return impl_->report; }
+const Model& Stepper::model() const { return impl_->scene.shared; }
+const StepOptions& Stepper::options() const { return impl_->scene.options; }
 
 void clear(StepReport& report) {
   report.iterations = report.arcs = report.sustained = 0;

@@ -37,10 +37,6 @@ Stepper::~Stepper() = default;
 Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
-const StepReport& Stepper::report() const { return impl_->report; }
-const Model& Stepper::model() const { return impl_->scene.shared; }
-const StepOptions& Stepper::options() const { return impl_->scene.options; }
-
 State Stepper::advance(const State& state, const ForceInput& input) {
   State next = state;
   impl_->step(next, input);
