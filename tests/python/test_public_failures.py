@@ -48,9 +48,9 @@ def test_height_after_a_bounce_is_continuous_in_the_drop_height():
     T = steps * h
     fall = np.sqrt(2 * drops / g)
     exact = e * g * fall * (T - fall) - g * (T - fall) ** 2 / 2
-    # a parabola is exact for the midpoint rule, the impact's instant in an arc to O(h^2)
-    assert np.abs(heights - exact).max() < 1e-12 + 2 * g * h**2
-    by = np.diff(heights) / np.diff(drops)
-    assert np.abs(np.diff(heights)).max() < 2 * np.abs(by).mean() * np.diff(drops).max()
-    between = (np.array(slopes[1:]) + slopes[:-1]) / 2
-    assert np.abs(by - between).max() < 1e-2 * np.abs(by).max()  # kinks at ends of steps: O(h^2)
+    # the midpoint rule has parabolas exactly, and what an impact changes of them
+    assert np.abs(heights - exact).max() < 1e-13
+    # a jump of the height or a kink would be seen in differences of neighbours: the rule of
+    # trapezoids is off by dz^2/12 of the third derivative, 1.6e-8
+    by, mean = np.diff(heights) / np.diff(drops), np.add(slopes[1:], slopes[:-1]) / 2
+    assert np.abs(by - mean).max() < 1e-7

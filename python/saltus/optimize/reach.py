@@ -1,4 +1,4 @@
-"""What a shot is to reach, and what of it is unknown."""
+"""A problem of shooting: what is to reach, what is unknown, the misses and their derivative."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from saltus._core import Model, ModelError
-from saltus.optimize.system import Array
+from saltus._core import Model, ModelError, Smoothness, State
+from saltus.optimize.system import Array, Rollout, System
 
 MissFunction = Callable[[Array, Array], tuple[npt.ArrayLike, npt.ArrayLike]]
 
@@ -119,3 +119,51 @@ def to_unknowns(
         raise ModelError(f"the last index counts the unknowns, and it differs: {sizes}")
     empty = {name: np.zeros((*shape, m)) for name, shape in shapes.items()}
     return Unknowns(**{**empty, **given})
+
+
+@dataclass
+class Shooting:
+    """A problem: what the motion starts from and what it is to reach."""
+
+    system: System
+    start: State
+    control: Array
+    unknowns: Unknowns
+    miss: MissFunction
+
+    def path(self, x: Array) -> Rollout:
+        """Return the motion that unknowns make."""
+        model, by = self.system.model, self.unknowns
+        start = model.state(
+            model.integrate(self.start.q, by.by_q @ x),
+            model.velocity(self.start) + by.by_v @ x,
+            self.start.t,
+        )
+        return self.system.roll(start, self.control + by.by_control @ x)
+
+    def misses(self, path: Rollout) -> tuple[Array, Array]:
+        """Return the misses, (r,), and their derivatives by q and v of the last state."""
+        end = path.states[-1]
+        r, J = self.miss(end.q, self.system.model.velocity(end))
+        residual, n = np.atleast_1d(np.asarray(r, dtype=float)), 2 * self.system.model.n_v
+        slopes = np.asarray(J, dtype=float)
+        if slopes.shape != (len(residual), n):
+            raise ModelError(
+                f"miss returned {len(residual)} misses with derivatives of shape {slopes.shape}; "
+                f"they are ({len(residual)}, {n}), columns q, along velocities, then v"
+            )
+        return residual, slopes
+
+    def jacobian(self, path: Rollout) -> tuple[Array, list[Smoothness]]:
+        """Return the derivative of the misses by the unknowns, (r, m), and verdicts on steps."""
+        system, by = self.system, self.unknowns
+        n = system.model.n_v
+        start, end = path.states[0], path.states[-1]
+        L = system.model.lagrangian(start.q, system.model.velocity(start))
+        slopes = system.linearize(path)
+        dx = np.vstack([by.by_q, L.L_vq @ by.by_q + L.L_vv @ by.by_v])
+        for A, B, du in zip(slopes.A, slopes.B, by.by_control, strict=True):
+            dx = A @ dx + B @ du
+        dv = system.velocity_slopes(end)[1] @ dx
+        J = self.misses(path)[1]
+        return J[:, :n] @ dx[:n] + J[:, n:] @ dv, slopes.smoothness
