@@ -51,8 +51,8 @@ void bind_motion(py::module_& m);
 void bind_urdf(py::module_& m);
 void bind_variational(py::module_& m);
 void bind_contact_space(py::module_& m);
-void bind_resolve_impact(py::module_& m);  ///< called by bind_contact_space
-void bind_report(py::module_& m);          ///< called by bind_stepper
+void bind_resolve_impact(py::module_& m);    ///< called by bind_contact_space
+void bind_report(py::module_& m);            ///< called by bind_stepper
 void bind_derivative_types(py::module_& m);  ///< likewise
 void bind_stepper(py::module_& m);
 void bind_rollout(py::module_& m);
