@@ -19,9 +19,9 @@ namespace saltus {
 
 /// Which tangents, and at which point.
 struct FrameChoice {
-  int axis = -1;            ///< tangents(n, axis); -1: fixed in b
+  int axis = -1;                                           ///< tangents(n, axis); -1: fixed in b
   std::array<Vec3, 2> t_B = {Vec3::Zero(), Vec3::Zero()};  ///< those, in b's joint's frame
-  bool at_a = false;        ///< at the witness on a; else halfway between both
+  bool at_a = false;  ///< at the witness on a; else halfway between both
 };
 
 struct FrameDerivative {
