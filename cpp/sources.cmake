@@ -160,8 +160,13 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/unlocated.cpp
   # derivatives
   cpp/src/derivatives/arc_derivative.cpp
+  cpp/src/derivatives/energy_derivative.cpp
+  cpp/src/derivatives/flown_arc.cpp
+  cpp/src/derivatives/frame_derivative.cpp
+  cpp/src/derivatives/friction_derivative.cpp
   cpp/src/derivatives/held_derivative.cpp
   cpp/src/derivatives/impulse_derivative.cpp
+  cpp/src/derivatives/kick_derivative.cpp
   cpp/src/derivatives/parameters.cpp
   cpp/src/derivatives/program.cpp
   cpp/src/derivatives/step_derivative.cpp

@@ -32,7 +32,7 @@ FLOORS["saltus"] = set(FLOORS)  # the umbrella header
 ROOMS: dict[str, dict[str, set[str]]] = {
     "collision": {
         "shapes": {"shapes", "hull"},
-        "gap": {"gap", "pair"},
+        "gap": {"gap", "gap_motion", "pair"},
         "convex": set(),
         "pairs": set(),
         "parts": {"parts"},

@@ -223,17 +223,6 @@ def test_a_recording_stepper_makes_the_same_steps():
         assert state == other
 
 
-def friction_scene() -> saltus.Model:
-    builder = ModelBuilder().add_half_space("floor", (0, 0, 1))
-    builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, joint="floating")
-    return builder.set_default_contact(friction=0.5).build()
-
-
-def dry_scene() -> saltus.Model:
-    builder = saltus.read_urdf(saltus.scenes.chain(1))
-    return builder.set_friction(builder.joint_names[-1], 0.1).build()
-
-
 def test_what_is_not_differentiated_is_named():
     def refused(model, state, words, law="nodal_energy", **forces):
         stepper = saltus.Stepper(model, law=law, record=True)
@@ -243,10 +232,6 @@ def test_what_is_not_differentiated_is_named():
         with pytest.raises(saltus.ModelError, match=words):  # and again: nothing half done is left
             stepper.vjp(np.zeros(model.n_v), np.zeros(model.n_v))
 
-    ball = friction_scene()
-    falls = ball.state(q={"ball_z": 0.101}, v={"ball_vz": -1.0})
-    refused(ball, falls, "friction")
-    refused(dry_scene(), dry_scene().state(v=[1.0]), "dry friction")
     arm = saltus.load_urdf(saltus.scenes.chain(1))
     link = arm.links[-1].name
     torque = {link: saltus.Wrench(torque=(0, 1, 0))}

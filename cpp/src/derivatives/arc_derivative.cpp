@@ -75,6 +75,19 @@ void take_shift_out(const ModelData& model, ArcDerivative& out) {
   if (s.shift.size() > 0) out.R += shifted_damping(model, out.v, s) / 2;
 }
 
+/// dE_d = (L_vq^T v - L_q).dq_m + L_v.dv. Needs the products with v.
+void set_energy(const ModelData& model, const Tape& tape, ArcDerivative& out) {
+  if (tape.law != ImpactLaw::discrete_energy) {
+    out.energy_q.resize(0);
+    return;
+  }
+  for (VecX* each : {&out.energy_q, &out.energy_v}) each->resize(model.tree.n_v);
+  gather(model.tree, model.packed, out.s.products.by_joint, 1, out.energy_q);
+  gather(model.tree, model.packed, out.s.w.first, 1, out.s.x);
+  out.energy_q -= out.s.x;
+  gather(model.tree, model.packed, out.s.w.first, 0, out.energy_v);
+}
+
 void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q, const VecX& p,
               ArcDerivative& out) {
   ArcScratch& s = out.s;
@@ -93,6 +106,7 @@ void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q,
   set_turns(model, out);
   set_momentum_rate(model.tree, model.packed, s.w, out.tau, s.products, s.x, out.R);
   take_shift_out(model, out);
+  set_energy(model, tape, out);
   if (s.has_forces) set_control_slopes(model.forces, tape.input, s.forces, out.Q_u);
 }
 
@@ -100,7 +114,8 @@ void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q,
 
 ArcDerivative::ArcDerivative(const ModelData& model)
     : turns(model.tree.balls.size()), s(model, ImpactLaw::nodal_energy), product(model.tree) {
-  for (VecX* each : {&v, &force, &R, &x, &x_m, &dv, &y, &of_L_v}) each->setZero(model.tree.n_v);
+  for (VecX* each : {&v, &force, &R, &x, &x_m, &dv, &y, &of_L_v, &hat_m, &hat_v})
+    each->setZero(model.tree.n_v);
   Q_u.setZero(model.tree.n_v, model.forces.n_u());
 }
 
@@ -140,14 +155,18 @@ void push_forward(const ModelData& model, ArcDerivative& arc, const VecX& dQ, do
   turn<&TurnDerivative::C>(arc, arc.y);
   arc.x_m = arc.x + half * arc.y + dtau / 2 * arc.v;
   multiply_by_hessian(model.tree, model.packed, w, arc.x_m, arc.dv, arc.product);
+  if (arc.energy_q.size() > 0) {
+    z.energy = arc.energy_q.dot(arc.x_m) + arc.energy_v.dot(arc.dv);
+  }
   for (const TurnDerivative& t : arc.turns) {
     const Vec3 dv = arc.dv.segment<3>(t.velocity), dL_v = arc.product.by_v.segment<3>(t.velocity);
     arc.product.by_q.segment<3>(t.velocity) += dv.cross(t.L_v) + t.rate.cross(dL_v);
   }
   z.p += arc.tau * (arc.product.by_q + dQ) + dtau * arc.force;
   turn<&TurnDerivative::whole>(arc, z.q);
-  turn<&TurnDerivative::K>(arc, arc.dv);
-  z.q += arc.tau * arc.dv + dtau * arc.v;
+  arc.y = arc.dv;
+  turn<&TurnDerivative::K>(arc, arc.y);
+  z.q += arc.tau * arc.y + dtau * arc.v;
 }
 
 double pull_back(const ModelData& model, ArcDerivative& arc, VecX& Q, Tangent& z) {
@@ -156,6 +175,7 @@ double pull_back(const ModelData& model, ArcDerivative& arc, VecX& Q, Tangent& z
   double of_tau = arc.v.dot(z.q) + arc.force.dot(z.p);
   arc.dv = arc.tau * z.q;
   turn_back<&TurnDerivative::K>(arc, arc.dv);
+  arc.dv += arc.hat_v;
   arc.x = arc.tau * z.p;
   Q += arc.x;
   arc.y.setZero();
@@ -166,7 +186,12 @@ double pull_back(const ModelData& model, ArcDerivative& arc, VecX& Q, Tangent& z
   }
   multiply_by_transposed(model.tree, model.packed, w, arc.x, arc.y, arc.product);
   arc.of_L_v = arc.y;
-  arc.x_m = arc.product.by_q;
+  arc.x_m = arc.product.by_q + arc.hat_m;
+  if (arc.energy_q.size() > 0) {
+    arc.x_m += z.energy * arc.energy_q;
+    arc.dv += z.energy * arc.energy_v;
+    z.energy = 0;
+  }
   of_tau += arc.x_m.dot(arc.v) / 2;
   arc.y = arc.x_m;
   turn_back<&TurnDerivative::C>(arc, arc.y);

@@ -19,7 +19,9 @@ namespace saltus {
 
 /// A direction of (q, p), or a covector of it.
 struct Tangent {
-  VecX q, p;  ///< (n_v)
+  VecX q, p;          ///< (n_v)
+  double energy = 0;  ///< [J] that the law of an impact to come matches; else of no meaning
+  double h = 0;       ///< [s] of the step's duration
 };
 
 /// What a ball turns by in an arc.
@@ -36,11 +38,17 @@ struct ArcDerivative {
   VecX v;      ///< (n_v)
   VecX force;  ///< (n_v) dp_end/dtau at fixed v: L_q' of packed.hpp
   MatX Q_u;    ///< (n_v, n_u) forces of the controls
-  VecX R;      ///< (n_v) scaled by K
+  /// (n_v) E_d by the middle and by v, where the law is discrete_energy; else empty, and a
+  /// tangent's energy goes on as it is.
+  VecX energy_q, energy_v;
+  VecX R;  ///< (n_v) scaled by K
   std::vector<TurnDerivative> turns;
   ArcScratch s;  ///< at the middle; factors of J
   HessianProduct product;
-  VecX x, x_m, dv, y;  ///< scratch
+  VecX x, y;     ///< scratch
+  VecX x_m, dv;  ///< (n_v) of the middle and of v, by push_forward
+  /// (n_v) covectors of these that pull_back adds.
+  VecX hat_m, hat_v;
   /// (n_v) by pull_back, with what it adds to Q: what changes of L_v and of f are multiplied by.
   VecX of_L_v;
 };

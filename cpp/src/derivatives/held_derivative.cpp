@@ -5,166 +5,229 @@
 namespace saltus {
 namespace {
 
-void start_rows(const std::vector<TapeRow>& told, int n, HeldRows& out) {
-  out.gaps.resize(static_cast<std::size_t>(n));
-  out.lambda.resize(n);
-  for (int k = 0; k < n; ++k) out.lambda[k] = told[static_cast<std::size_t>(k)].lambda;
+using Mode = KickContact::Mode;
+using Vec2 = Eigen::Vector2d;
+
+int rates_of(const TapeRow& row) { return row.friction > 0 ? 3 : 1; }
+
+const Pair& watched(const TapeRow& row, const Pair& pair) {
+  return row.is_frozen ? row.frozen : pair;
 }
 
-void set_gap_of(const ModelData& model, const Kinematics& kin, const TapeRow& row,
-                GapDerivative& out) {
-  if (row.is_frozen) {
-    set_gap_derivative(model, kin, row.frozen, out);
-  } else {
-    set_gap_derivative(model, kin, row.pair, out);
-  }
+/// Rates of one contact that an arc holds.
+struct Slip {
+  std::array<VecX, 2> by_v, by_m, by_end, by_start;
+  Vec2 value = Vec2::Zero();
+};
+
+struct Places {
+  Kinematics start, middle, end;
+};
+
+FrameChoice choice_of(const TapeRow& row, bool at_a) {
+  FrameChoice out;
+  out.axis = row.is_frozen ? -1 : row.axis;
+  out.t_B = row.t_B;
+  out.at_a = at_a;
+  return out;
 }
 
-/// z.p += lambda dN.
-void add_turned(const HeldRows& rows, Tangent& z) {
-  for (Eigen::Index k = 0; k < rows.size(); ++k) {
-    add_gradient_change(rows.gaps[static_cast<std::size_t>(k)], z.q, rows.lambda[k], z.p);
+/// Of a corner: its chord, on a plane and along axes that are fixed in b.
+Slip slip_of_point(const ModelData& model, const Places& at, const TapeRow& row) {
+  Slip out;
+  FrameDerivative start, end;
+  const FrameChoice choice = choice_of(row, true);
+  set_frame(model, at.start, row.frozen, choice, start);
+  set_frame(model, at.end, row.frozen, choice, end);
+  const Pose X_WJ = at.end.X_WJ(model.tree, row.frozen.on_b.joint);
+  const Vec3 chord =
+      pair_gap(model.tree, at.end, row.frozen).p_WA - (X_WJ.p + X_WJ.R * row.point_B);
+  for (int k = 0; k < 2; ++k) {
+    out.by_end[k] = end.row[k + 1];
+    out.by_start[k] = -start.row[k + 1];
+    out.value[k] = (X_WJ.R * row.t_B[k]).dot(chord);
   }
-}
-void pull_turned(const HeldRows& rows, Tangent& z) {
-  for (Eigen::Index k = 0; k < rows.size(); ++k) {
-    add_gradient_covector(rows.gaps[static_cast<std::size_t>(k)], z.p, rows.lambda[k], z.q);
-  }
+  return out;
 }
 
-/// Redundant contacts share what they do together.
-void factor(const MatX& W, HeldRows& out) {
-  Eigen::CompleteOrthogonalDecomposition<MatX> factors;
-  factors.setThreshold(1e-11);
-  factors.compute(W);
-  out.W_inverse = factors.pseudoInverse();
+/// T(q_m) v.
+Slip slip_in_middle(const ModelData& model, const Places& at, const Pair& pair, const TapeRow& row,
+                    const VecX& v) {
+  Slip out;
+  FrameDerivative middle;
+  set_frame(model, at.middle, pair, choice_of(row, false), middle);
+  for (int k = 0; k < 2; ++k) {
+    out.by_v[k] = middle.row[k + 1];
+    out.by_m[k].setZero(v.size());
+    add_row_covector(middle, k + 1, v, 1, out.by_m[k]);
+    out.value[k] = middle.row[k + 1].dot(v);
+  }
+  return out;
+}
+
+void put(const VecX& from, Eigen::Index column, MatX& to) {
+  if (from.size() > 0) to.col(column) = from;
+}
+
+/// Rates and equations of one contact, whose first row is `at`.
+void add_contact(const ModelData& model, const Places& places, const TapeRow& row,
+                 const ArcDerivative& arc, Eigen::Index at, HeldArc& held, MatX& N, MatX& K) {
+  if (row.joint >= 0) {
+    held.G_v(row.joint, at) = 1;
+    (row.slides ? K : N)(at, at) = 1;
+    if (row.slides) held.rubs[row.joint] += row.P[0] / arc.tau;
+    return;
+  }
+  const Pair pair = pair_of(model, row.pair);
+  GapDerivative end;
+  set_gap_derivative(model, places.end, watched(row, pair), end);
+  held.G_q.col(at) = end.n;
+  N(at, at) = 1;
+  if (rates_of(row) == 1) return;
+  const Slip slip = row.is_point ? slip_of_point(model, places, row)
+                                 : slip_in_middle(model, places, watched(row, pair), row, arc.v);
+  for (int k = 0; k < 2; ++k) {
+    put(slip.by_end[k], at + 1 + k, held.G_q);
+    put(slip.by_v[k], at + 1 + k, held.G_v);
+    put(slip.by_m[k], at + 1 + k, held.G_m);
+    put(slip.by_start[k], at + 1 + k, held.G_0);
+  }
+  if (!row.slides) {
+    N(at + 1, at + 1) = N(at + 2, at + 2) = 1;
+    return;
+  }
+  const double speed = slip.value.norm();
+  const Vec2 d = slip.value / speed;
+  K.block<2, 2>(at + 1, at + 1).setIdentity();
+  K.block<2, 1>(at + 1, at) = row.friction * d;
+  N.block<2, 2>(at + 1, at + 1) =
+      row.friction * row.P[0] / speed * (Eigen::Matrix2d::Identity() - d * d.transpose());
+}
+
+void list_rows(const TapeArc& told, HeldArc& held) {
+  held.contact_of.clear();
+  held.row_of.clear();
+  std::vector<double> P;
+  for (int k = 0; k < told.n_held; ++k) {
+    const TapeRow& row = told.held[static_cast<std::size_t>(k)];
+    for (int i = 0; i < rates_of(row); ++i) {
+      held.contact_of.push_back(k);
+      held.row_of.push_back(i);
+      P.push_back(row.P[i]);
+    }
+  }
+  held.P = Eigen::Map<const VecX>(P.data(), static_cast<Eigen::Index>(P.size()));
+}
+
+void place(const ModelData& model, const TapeArc& told, const ArcDerivative& arc, Places& out) {
+  set_configuration(model.tree, told.q, out.start);
+  set_configuration(model.tree, arc.s.q, out.middle);  // where it was evaluated
+  set_configuration(model.tree, told.q_end, out.end);
+}
+
+/// R, and W.
+MatX set_answers(const ModelData& model, ArcDerivative& arc, HeldArc& held) {
+  const Eigen::Index N = held.size();
+  const VecX none = VecX::Zero(model.tree.n_v);
+  MatX W(N, N);
+  for (Eigen::Index c = 0; c < N; ++c) {
+    const auto k = static_cast<std::size_t>(held.contact_of[static_cast<std::size_t>(c)]);
+    Tangent z{none, held.frames[k].row[held.row_of[static_cast<std::size_t>(c)]], 0, 0};
+    push_forward(model, arc, none, 0, z);
+    held.R_q.col(c) = z.q;
+    held.R_p.col(c) = z.p;
+    W.col(c) =
+        held.G_q.transpose() * z.q + held.G_v.transpose() * arc.dv + held.G_m.transpose() * arc.x_m;
+  }
+  return W;
 }
 
 void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
   HeldArc& held = out.held;
-  start_rows(told.held, told.n_held, held.rows);
-  const Eigen::Index m = held.rows.size();
-  if (m == 0) return;
-  const Eigen::Index n = model.tree.n_v;
-  for (MatX* each : {&held.E, &held.R_q, &held.R_p}) each->resize(n, m);
-  Kinematics kin(model.tree);
-  set_configuration(model.tree, told.q_end, kin);
-  GapDerivative end;
-  for (Eigen::Index k = 0; k < m; ++k) {
-    set_gap_of(model, kin, told.held[static_cast<std::size_t>(k)], end);
-    held.E.col(k) = end.n;
+  list_rows(told, held);
+  const Eigen::Index N = held.size();
+  held.rubs.resize(0);
+  if (N == 0) return;
+  held.rubs.setZero(model.tree.n_v);
+  for (MatX* each : {&held.R_q, &held.R_p, &held.G_q, &held.G_v, &held.G_m, &held.G_0}) {
+    each->setZero(model.tree.n_v, N);
   }
-  set_configuration(model.tree, told.q, kin);
-  const VecX none = VecX::Zero(n);
-  for (Eigen::Index k = 0; k < m; ++k) {
-    GapDerivative& gap = held.rows.gaps[static_cast<std::size_t>(k)];
-    set_gap_of(model, kin, told.held[static_cast<std::size_t>(k)], gap);
-    Tangent z{none, gap.n};
-    push_forward(model, out.arc, none, 0, z);
-    held.R_q.col(k) = z.q;
-    held.R_p.col(k) = z.p;
+  Places places{Kinematics(model.tree), Kinematics(model.tree), Kinematics(model.tree)};
+  place(model, told, out.arc, places);
+  held.frames.resize(static_cast<std::size_t>(told.n_held));
+  MatX by_g = MatX::Zero(N, N), by_P = by_g;
+  Eigen::Index at = 0;
+  for (int k = 0; k < told.n_held; ++k) {
+    const TapeRow& row = told.held[static_cast<std::size_t>(k)];
+    FrameDerivative& frame = held.frames[static_cast<std::size_t>(k)];
+    if (row.joint >= 0) {
+      set_joint_frame(model, row.joint, frame);
+    } else {
+      set_frame(model, places.start, pair_of(model, row.pair), choice_of(row, false), frame);
+    }
+    add_contact(model, places, row, out.arc, at, held, by_g, by_P);
+    at += rates_of(row);
   }
-  factor(held.E.transpose() * held.R_q, held.rows);
+  Eigen::CompleteOrthogonalDecomposition<MatX> factors;
+  factors.setThreshold(1e-11);  // redundant contacts share what they do: the least there is
+  factors.compute(by_g * set_answers(model, out.arc, held) + by_P);
+  held.S_N = factors.pseudoInverse() * by_g;
+}
+
+/// The kick, and where in the arc the directions of its friction come from.
+void set_closing_kick(const ModelData& model, const Tape& tape, const TapeArc& told,
+                      FlownArc& out) {
+  out.kick.contacts.clear();
+  out.source.clear();
+  out.kick.P.resize(0);
+  if (told.n_kick == 0) return;
+  for (int k = 0; k < told.n_kick; ++k) {
+    const TapeRow& row = told.kick[static_cast<std::size_t>(k)];
+    KickContact contact = contact_of(model, row);
+    if (row.is_along) {
+      contact.mode = Mode::along;
+      int first = 0;
+      for (int i = 0; i < row.held; ++i) first += rates_of(told.held[static_cast<std::size_t>(i)]);
+      out.source.push_back({first + 1, 0});
+    } else if (row.joint >= 0) {
+      contact.is_given = row.slides;
+      if (row.slides) out.source.push_back({-1, row.P[0] / told.tau});
+    } else if (contact.mode == Mode::slides) {
+      throw ModelError(
+          "the step has no derivative yet: it has a contact that slides at an arc's "
+          "end, and did not in the arc");
+    }
+    out.kick.contacts.push_back(contact);
+  }
+  if (!out.node) out.node = std::make_unique<NodeDerivative>(model);
+  NodeDerivative& node = *out.node;
+  node.t = told.t + told.tau;
+  node.q = told.q_end;
+  set_node_derivative(model, tape, node.t, told.q_end, told.v, node.motion);
+  Tangent flow;
+  set_flow(model, tape, told.p_end, node, flow);
+  set_kick(model, node.q, node.motion, out.kick);
 }
 
 }  // namespace
 
+KickContact contact_of(const ModelData& model, const TapeRow& row) {
+  KickContact out;
+  out.joint = row.joint;
+  out.P = row.P;
+  if (row.joint >= 0) return out;
+  out.pair = row.is_frozen ? row.frozen : pair_of(model, row.pair);
+  out.frame = choice_of(row, false);
+  out.friction = row.friction;
+  out.mode = mode_of(row.P, row.friction);
+  return out;
+}
+
 void set_flown_arc(const ModelData& model, const Tape& tape, const TapeArc& told, FlownArc& out) {
   set_arc_derivative(model, tape, told, out.arc);
+  set_match(model, tape, told, out.arc, out.match);
   set_held_arc(model, told, out);
-  out.kick.rows.lambda.resize(0);
-  if (told.n_kick == 0) return;
-  if (!out.node) out.node = std::make_unique<NodeDerivative>(model);
-  out.node->t = told.t + told.tau;
-  out.node->q = told.q_end;
-  set_node_derivative(model, tape, out.node->t, told.q_end, told.v, out.node->motion);
-  set_kick(model, tape, told.kick, told.n_kick, told.p_end, *out.node, out.kick);
-}
-
-void set_kick(const ModelData& model, const Tape& tape, const std::vector<TapeRow>& told,
-              int n_rows, const VecX& p, NodeDerivative& node, KickDerivative& out) {
-  start_rows(told, n_rows, out.rows);
-  const Eigen::Index m = out.rows.size();
-  if (m == 0) return;
-  const Eigen::Index n = model.tree.n_v;
-  out.of_q.resize(n, m);
-  out.of_p.resize(n, m);
-  set_configuration(model.tree, node.q, node.kin);
-  Tangent motion;
-  set_flow(model, tape, p, node, motion);
-  MatX N(n, m);
-  for (Eigen::Index k = 0; k < m; ++k) {
-    GapDerivative& gap = out.rows.gaps[static_cast<std::size_t>(k)];
-    set_gap_of(model, node.kin, told[static_cast<std::size_t>(k)], gap);
-    N.col(k) = gap.n;
-    VecX w = gap.n;
-    solve_scaled(model.tree, model.packed, node.motion.s.J, w);
-    multiply_by_transposed(model.tree, model.packed, node.motion.s.w, node.zero, w, node.product);
-    VecX of_q = -node.product.by_q;
-    add_gradient_covector(gap, motion.q, 1, of_q);
-    out.of_q.col(k) = of_q;
-    out.of_p.col(k) = w;
-  }
-  factor(N.transpose() * out.of_p, out.rows);
-}
-
-void push_flown(const ModelData& model, FlownArc& flown, const VecX& dQ, double dtau, Tangent& z) {
-  const HeldArc& held = flown.held;
-  add_turned(held.rows, z);
-  push_forward(model, flown.arc, dQ, dtau, z);
-  if (held.rows.size() > 0) {
-    const VecX dlambda = -(held.rows.W_inverse * (held.E.transpose() * z.q));
-    z.q += held.R_q * dlambda;
-    z.p += held.R_p * dlambda;
-  }
-  push_kick(flown.kick, z);
-}
-
-double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z,
-                  ParameterGradient* to) {
-  const HeldArc& held = flown.held;
-  const VecX residual = pull_kick(flown.kick, z);
-  if (to != nullptr && residual.size() > 0) {
-    add_kick_gradient(model, flown.kick, residual, flown.node->motion, *to);
-  }
-  if (held.rows.size() > 0) {
-    const VecX of_lambda = held.R_q.transpose() * z.q + held.R_p.transpose() * z.p;
-    z.q -= held.E * (held.rows.W_inverse.transpose() * of_lambda);
-  }
-  Q.setZero();
-  const double of_tau = pull_back(model, flown.arc, Q, z);
-  if (to != nullptr) add_arc_gradient(model, flown.arc, Q, *to);
-  pull_turned(held.rows, z);
-  return of_tau;
-}
-
-void push_kick(const KickDerivative& kick, Tangent& z) {
-  if (kick.rows.size() == 0) return;
-  add_turned(kick.rows, z);
-  const VecX dlambda =
-      -(kick.rows.W_inverse * (kick.of_q.transpose() * z.q + kick.of_p.transpose() * z.p));
-  for (Eigen::Index k = 0; k < kick.rows.size(); ++k) {
-    z.p += dlambda[k] * kick.rows.gaps[static_cast<std::size_t>(k)].n;
-  }
-}
-
-VecX pull_kick(const KickDerivative& kick, Tangent& z) {
-  if (kick.rows.size() == 0) return {};
-  VecX of_lambda(kick.rows.size());
-  for (Eigen::Index k = 0; k < kick.rows.size(); ++k) {
-    of_lambda[k] = kick.rows.gaps[static_cast<std::size_t>(k)].n.dot(z.p);
-  }
-  const VecX residual = kick.rows.W_inverse.transpose() * of_lambda;
-  z.q -= kick.of_q * residual;
-  z.p -= kick.of_p * residual;
-  pull_turned(kick.rows, z);
-  return residual;
-}
-
-void add_kick_gradient(const ModelData& model, const KickDerivative& kick, const VecX& residual,
-                       const ArcDerivative& motion, ParameterGradient& to) {
-  const VecX none = VecX::Zero(model.tree.n_v), y = kick.of_p * residual;
-  add_gradient(model, motion.s.w, none, y, 1, to);
+  set_closing_kick(model, tape, told, out);
 }
 
 }  // namespace saltus

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace saltus {
-namespace {
 
 Pair pair_of(const ModelData& model, int number) {
   if (model.is_limit(number)) {
@@ -13,21 +12,6 @@ Pair pair_of(const ModelData& model, int number) {
   const PairTable::Key key = model.pairs.key(number);
   return make_pair(model.tree, model.shapes, key.a, key.b, key.part);
 }
-
-/// Of the gap, along the motion.
-double closing_of(const GapDerivative& gap, NodeDerivative& node, const ModelData& model) {
-  ArcDerivative& motion = node.motion;
-  // M a = f - L_vq v
-  multiply_by_hessian(model.tree, model.packed, motion.s.w, motion.v, node.zero, node.product);
-  VecX& a = motion.dv;
-  a = motion.force - node.product.by_v;
-  solve_scaled(model.tree, model.packed, motion.s.J, a);
-  motion.y.setZero();
-  add_gradient_change(gap, motion.v, 1, motion.y);
-  return gap.n.dot(a) + motion.y.dot(motion.v);
-}
-
-}  // namespace
 
 void set_gap_derivative(const ModelData& model, const Kinematics& kin, int number,
                         GapDerivative& out) {
@@ -94,6 +78,18 @@ void set_node(const ModelData& model, const Tape& tape, const TapeImpact& impact
   set_node_derivative(model, tape, node.t, node.q, impact.v, node.motion);
 }
 
+double closing_of(const ModelData& model, const GapDerivative& gap, NodeDerivative& node) {
+  ArcDerivative& motion = node.motion;
+  // M a = f - L_vq v
+  multiply_by_hessian(model.tree, model.packed, motion.s.w, motion.v, node.zero, node.product);
+  VecX& a = motion.dv;
+  a = motion.force - node.product.by_v;
+  solve_scaled(model.tree, model.packed, motion.s.J, a);
+  motion.y.setZero();
+  add_gradient_change(gap, motion.v, 1, motion.y);
+  return gap.n.dot(a) + motion.y.dot(motion.v);
+}
+
 void set_flow(const ModelData& model, const Tape& tape, const VecX& p, NodeDerivative& node,
               Tangent& flow) {
   node.v = p;
@@ -119,7 +115,7 @@ void set_impulse(const ModelData& model, const Tape& tape, int contact, VecX& p,
   out.restitution = node.restitution[static_cast<std::size_t>(contact)];
   set_flow(model, tape, p, node, out.flow);
   const VecX& v = node.v;
-  out.closing = closing_of(gap, node, model);
+  out.closing = closing_of(model, gap, node);
   out.w = gap.n;
   solve_scaled(model.tree, model.packed, node.motion.s.J, out.w);
   out.G = gap.n.dot(out.w);

@@ -23,6 +23,7 @@ struct GapDerivative {
 
 void set_gap_derivative(const ModelData& model, const Kinematics& kin, const Pair& pair,
                         GapDerivative& out);
+Pair pair_of(const ModelData& model, int number);
 /// Of a pair by its number, at the configuration in `kin`.
 void set_gap_derivative(const ModelData& model, const Kinematics& kin, int pair,
                         GapDerivative& out);
@@ -68,6 +69,9 @@ void set_impulse(const ModelData& model, const Tape& tape, int contact, VecX& p,
 /// First partials at (q, v_s), in node.w.
 void evaluate_at_compression(const ModelData& model, const ImpulseDerivative& impulse,
                              NodeDerivative& node);
+
+/// [m/s^2] Second derivative of the gap along node.motion.
+double closing_of(const ModelData& model, const GapDerivative& gap, NodeDerivative& node);
 
 /// The motion (M^-1 p, f) at the node.
 void set_flow(const ModelData& model, const Tape& tape, const VecX& p, NodeDerivative& node,

@@ -1,5 +1,6 @@
 #include "derivatives/program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,7 @@ Passing& next_passing(StepProgram& program) {
 void set_arrival(const ModelData& model, FlownArc& arc, const VecX& zero, Tangent& b) {
   b.q = zero;
   b.p = zero;
+  b.energy = b.h = 0;
   push_flown(model, arc, zero, 1, b);
 }
 
@@ -48,13 +50,16 @@ void check_impulses(const TapeImpact& told, const ImpactPieces& impact) {
 
 /// All at once: which gap moves the instant is that of the arc, or of the fastest.
 void set_together(const ModelData& model, const Tape& tape, const TapeImpact& told, int pair,
-                  ImpactPieces& impact) {
-  std::vector<TapeRow> rows;
+                  const VecX& p_after, ImpactPieces& impact) {
+  impact.kick.contacts.clear();
   for (const TapeImpulse& each : told.impulses) {
+    if (!(each.lambda > 0)) continue;
     TapeRow row;
     row.pair = told.contacts[static_cast<std::size_t>(each.contact)].pair;
-    row.lambda = each.lambda;
-    rows.push_back(row);
+    row.friction = told.contacts[static_cast<std::size_t>(each.contact)].friction;
+    row.axis = each.axis;
+    row.P = each.P;
+    impact.kick.contacts.push_back(contact_of(model, row));
   }
   impact.first = 0;
   for (std::size_t i = 0; i < told.contacts.size(); ++i) {
@@ -65,23 +70,39 @@ void set_together(const ModelData& model, const Tape& tape, const TapeImpact& to
     }
     if (told.contacts[i].u < told.contacts[first].u) impact.first = static_cast<int>(i);
   }
-  impact.p_after = told.p;
-  for (const TapeImpulse& each : told.impulses) {
-    impact.p_after += each.lambda * impact.node.gaps[static_cast<std::size_t>(each.contact)].n;
-  }
+  impact.p_after = p_after;
   if (impact.arrival.q.size() > 0) {
     impact.flow = impact.arrival;
   } else {
     set_flow(model, tape, told.p, impact.node, impact.flow);
   }
   impact.slope = impact.node.gaps[static_cast<std::size_t>(impact.first)].n.dot(impact.flow.q);
-  set_kick(model, tape, rows, static_cast<int>(rows.size()), impact.p_after, impact.node,
-           impact.kick);
+  Tangent after;
+  set_flow(model, tape, impact.p_after, impact.node, after);
+  set_kick(model, impact.node.q, impact.node.motion, impact.kick);
+}
+
+bool has_friction(const TapeImpact& told) {
+  return std::any_of(told.contacts.begin(), told.contacts.end(),
+                     [](const TapeContact& c) { return c.friction > 0; });
+}
+
+void set_rubbing(const ModelData& model, const Tape& tape, const TapeImpact& told,
+                 ImpactPieces& impact) {
+  impact.p_after = told.p;
+  for (const TapeImpulse& each : told.impulses) {
+    impact.rubbing.emplace_back();
+    FrictionDerivative& to = impact.rubbing.back();
+    set_friction_impulse(model, tape, told, each, impact.p_after, impact.node, to);
+    if (impact.rubbing.size() > 1 || impact.arrival.q.size() == 0) continue;
+    to.flow = impact.arrival;
+    to.slope = impact.node.gaps[static_cast<std::size_t>(to.contact)].n.dot(to.flow.q);
+  }
 }
 
 /// @param arrival the arc that a gap ended here, of pair `pair`; or nullptr
 void add_impact(const ModelData& model, const Tape& tape, const TapeImpact& told, FlownArc* arrival,
-                int pair, StepProgram& program) {
+                int pair, const VecX& p_after, StepProgram& program) {
   program.pieces.push_back({Kind::impact, program.n_impacts, 0});
   ImpactPieces& impact = next_of(model, program.impacts, program.n_impacts);
   set_node(model, tape, told, impact.node);
@@ -90,7 +111,9 @@ void add_impact(const ModelData& model, const Tape& tape, const TapeImpact& told
   if (arrival != nullptr) set_arrival(model, *arrival, program.zero, impact.arrival);
   impact.is_together = told.is_together;
   impact.impulses.clear();
-  if (told.is_together) return set_together(model, tape, told, pair, impact);
+  impact.rubbing.clear();
+  if (told.is_together) return set_together(model, tape, told, pair, p_after, impact);
+  if (has_friction(told)) return set_rubbing(model, tape, told, impact);
   std::vector<int> order;
   for (const TapeImpulse& each : told.impulses) order.push_back(each.contact);
   set_impulses(model, tape, order, impact);
@@ -113,6 +136,12 @@ const TapeArc* arc_of(const Tape& tape, std::size_t piece) {
   return &tape.arcs[static_cast<std::size_t>(tape.pieces[piece].index)];
 }
 
+/// Where the next piece starts.
+const VecX& momenta_after(const Tape& tape, std::size_t piece) {
+  const TapeArc* next = arc_of(tape, piece + 1);
+  return next != nullptr ? next->p : tape.p_end;
+}
+
 void add_arc(const ModelData& model, const Tape& tape, std::size_t piece, StepProgram& program) {
   const TapeArc& told = *arc_of(tape, piece);
   const Kind kind = told.end == TapeArc::End::step   ? Kind::rest
@@ -126,6 +155,11 @@ void add_arc(const ModelData& model, const Tape& tape, std::size_t piece, StepPr
   check_time(program, "through an impact");
   const bool is_impact = piece + 1 < tape.pieces.size() && !tape.pieces[piece + 1].is_arc;
   if (!is_impact) add_passing(model, told, arc, program);
+}
+
+bool has_match(const Tape& tape) {
+  return std::any_of(tape.arcs.begin(), tape.arcs.begin() + tape.n_arcs,
+                     [](const TapeArc& arc) { return arc.matched >= 0; });
 }
 
 /// The last motion, along which time is left at the end of the step.
@@ -165,6 +199,13 @@ void set_program(const ModelData& model, const Tape& tape, StepProgram& program)
     throw ModelError("the step has no derivative yet: it has " + tape.refusal);
   }
   program.pieces.clear();
+  program.start = {};
+  program.has_match = has_match(tape);
+  if (program.has_match && tape.law == ImpactLaw::shadow_energy) {
+    set_shadow_gradient(model, tape.q, tape.p, tape.h, program.start);
+  } else if (program.has_match && !tape.pieces.front().is_arc) {
+    set_energy_gradient(model, tape, tape.q, tape.p, program.start);
+  }
   program.n_arcs = program.n_impacts = program.n_passings = 0;
   program.has_rest = true;
   program.zero.setZero(model.tree.n_v);
@@ -180,7 +221,7 @@ void set_program(const ModelData& model, const Tape& tape, StepProgram& program)
         arrives ? program.arcs[static_cast<std::size_t>(program.n_arcs - 1)].get() : nullptr;
     check_time(program, "through an impact");
     add_impact(model, tape, tape.impacts[static_cast<std::size_t>(tape.pieces[k].index)], arc,
-               before != nullptr ? before->pair : -1, program);
+               before != nullptr ? before->pair : -1, momenta_after(tape, k), program);
     program.has_rest = true;
   }
   set_motion(model, tape, program);

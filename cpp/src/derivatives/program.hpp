@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "derivatives/held_derivative.hpp"
+#include "derivatives/friction_derivative.hpp"
 #include "saltus/derivatives/step_derivative.hpp"
 
 namespace saltus {
@@ -12,7 +12,8 @@ namespace saltus {
 struct ImpactPieces {
   explicit ImpactPieces(const ModelData& model) : node(model) {}
   NodeDerivative node;
-  std::vector<ImpulseDerivative> impulses;
+  std::vector<ImpulseDerivative> impulses;  ///< without friction
+  std::vector<FrictionDerivative> rubbing;  ///< all, where there is some
   bool is_together = false;  ///< plastic: a kick, and when comes by the gap of `first`
   KickDerivative kick;
   int first = 0;  ///< index in the node's gaps
@@ -50,6 +51,8 @@ struct StepProgram {
   int n_arcs = 0, n_impacts = 0, n_passings = 0;
 
   bool has_rest = false;   ///< time may be left at the end, along
+  bool has_match = false;  ///< an arc meets an energy
+  EnergyGradient start;    ///< of the energy that is matched; empty where none is
   Tangent motion;          ///< (v, f) there
   bool tells_time = true;  ///< no force is a function of time whose derivative is not told
   std::string timed;       ///< the name of one that is

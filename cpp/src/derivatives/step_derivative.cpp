@@ -1,5 +1,7 @@
 #include "saltus/derivatives/step_derivative.hpp"
 
+#include <limits>
+
 #include "derivatives/verdict.hpp"
 
 namespace saltus {
@@ -12,6 +14,9 @@ struct StepDerivatives::Impl {
 
   void check(const StepDirection& d) const;
   void need_step() const;
+  /// By a law that matches energies: the impulses of other orders are not made.
+  bool is_matched() const { return program.start.q.size() > 0 || program.has_match; }
+  void need_orders() const;
   Tangent push(const StepDirection& by, Order order = Order::own);
   StepDirection pull(const StateDirection& covector, bool with_parameters);
   void set_columns(VecX StepDirection::* input, Eigen::Index count, MatX& out);
@@ -33,6 +38,14 @@ void StepDerivatives::Impl::need_step() const {
     throw ModelError("there is no step to differentiate: none was recorded, or it failed");
 }
 
+void StepDerivatives::Impl::need_orders() const {
+  need_step();
+  if (is_matched()) {
+    throw ModelError(
+        "other orders of impacts are not differentiated with laws that match energies");
+  }
+}
+
 void StepDerivatives::Impl::check(const StepDirection& d) const {
   const auto fits = [](const VecX& x, int n, const char* what, const char* unit) {
     if (x.size() > 0) check_vector(x, n, what, unit);
@@ -45,7 +58,7 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
 }
 
 Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
-  Tangent z{by.q.size() > 0 ? by.q : program.zero, by.p.size() > 0 ? by.p : program.zero};
+  Tangent z{by.q.size() > 0 ? by.q : program.zero, by.p.size() > 0 ? by.p : program.zero, 0, 0};
   push_program(model, tape, by, order, program, z);
   return z;
 }
@@ -76,6 +89,10 @@ void StepDerivatives::Impl::set_A(MatX& A) {
 /// The largest difference of A by other orders of the impact, relative to its largest entry.
 double StepDerivatives::Impl::spread(const MatX& A, std::size_t index, Smoothness& verdict) {
   constexpr int most = 64;  // orders; of many contacts these are a sample
+  if (is_matched() || !program.impacts[index]->rubbing.empty()) {
+    verdict = worse(verdict, Smoothness::selection);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   ImpactPieces& impact = *program.impacts[index];
   const auto orders = find_orders(model, tape.impacts[index], impact, most);
   double out = 0;
@@ -116,7 +133,8 @@ void StepDerivatives::Impl::judge(StepDerivative& out) {
       out.smoothness = worse(out.smoothness, Smoothness::one_sided);
     }
   }
-  if (program.n_passings > 0) out.smoothness = worse(out.smoothness, Smoothness::grazing);
+  if (program.n_passings > 0 || tape.has_settled)
+    out.smoothness = worse(out.smoothness, Smoothness::grazing);
 }
 
 StepDerivatives::StepDerivatives(const Model& model, const StepOptions& options)
@@ -141,7 +159,7 @@ StateDirection StepDerivatives::jvp(const StepDirection& direction) {
 }
 
 StateDirection StepDerivatives::directional(const StepDirection& direction) {
-  impl_->need_step();
+  impl_->need_orders();
   impl_->check(direction);
   Tangent z = impl_->push(direction, Order::of_direction);
   return {std::move(z.q), std::move(z.p)};
@@ -151,7 +169,7 @@ StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool w
   need_step();
   check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
   check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
-  Tangent z{covector.q, covector.p};
+  Tangent z{covector.q, covector.p, 0, 0};
   StepDirection out;
   pull_program(model, program, z, out, with_parameters ? &parameters : nullptr);
   out.q = std::move(z.q);
@@ -193,13 +211,13 @@ StepDerivative StepDerivatives::derivative() {
 }
 
 std::vector<Selection> StepDerivatives::selections(int most) {
-  impl_->need_step();
+  impl_->need_orders();
   std::vector<Selection> out;
   for (int k = 0; k < impl_->program.n_impacts; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const TapeImpact& told = impl_->tape.impacts[i];
     ImpactPieces& impact = *impl_->program.impacts[i];
-    if (told.contacts.size() < 2 || told.is_together) continue;
+    if (told.contacts.size() < 2 || told.is_together || !impact.rubbing.empty()) continue;
     const auto orders = find_orders(impl_->model, told, impact, most);
     for (const ImpactOrderFound& order : orders) {
       Selection selection{k, {}, order.p, {}};

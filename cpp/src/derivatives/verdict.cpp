@@ -99,6 +99,10 @@ ImpactDerivative describe(const ModelData& model, const TapeImpact& told, Impact
     const double depth = each.u * each.u / (2 * std::abs(each.closing));
     if (depth < out.depth) out.depth = depth;
   }
+  for (const FrictionDerivative& each : impact.rubbing) {
+    out.pairs.push_back(told.contacts[static_cast<std::size_t>(each.contact)].pair);
+    out.depth = std::min(out.depth, each.u * each.u / (2 * std::abs(each.closing)));
+  }
   impact.node.v = impact.p_after;
   solve_scaled(model.tree, model.packed, impact.node.motion.s.J, impact.node.v);
   list_weak(told, impact, out.weak);

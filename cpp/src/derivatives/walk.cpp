@@ -12,11 +12,12 @@ void shift(const Tangent& b, const VecX& n, double slope, Tangent& z, double& le
   const double sigma = -n.dot(z.q) / slope;
   z.q += sigma * b.q;
   z.p += sigma * b.p;
+  z.energy += sigma * b.energy;
   left -= sigma;
 }
 
 void shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, double left) {
-  const double of_sigma = b.q.dot(z.q) + b.p.dot(z.p) - left;
+  const double of_sigma = b.q.dot(z.q) + b.p.dot(z.p) + b.energy * z.energy - left;
   z.q -= of_sigma / slope * n;
 }
 
@@ -26,8 +27,13 @@ void push_impact(double de, ImpactPieces& impact, Tangent& z, double& left) {
   if (impact.is_together) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
     shift(impact.flow, n, impact.slope, z, left);
-    push_kick(impact.kick, z);
+    push_kick(impact.kick, VecX(), z);
     return;
+  }
+  for (const FrictionDerivative& each : impact.rubbing) {
+    const VecX& n = impact.node.gaps[static_cast<std::size_t>(each.contact)].n;
+    shift(each.flow, n, each.slope, z, left);
+    push_friction(each, de, z);
   }
   for (const ImpulseDerivative& each : impact.impulses) {
     const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each.contact)];
@@ -76,12 +82,17 @@ void push_program(const ModelData& model, const Tape& tape, const StepDirection&
                   StepProgram& program, Tangent& z) {
   if (by.h != 0) check_time(program, "by its duration");
   double left = by.h;
+  z.h = by.h;
+  if (program.start.q.size() > 0) z.energy = program.start.dot(z);
   for (const StepProgram::Piece& piece : program.pieces) {
     const auto k = static_cast<std::size_t>(piece.index);
     if (piece.kind == Kind::impact) {
       ImpactPieces& impact = *program.impacts[k];
       const double de = entry(by.restitution, piece.index);
       const bool has_orders = impact.node.gaps.size() > 1 && !impact.is_together;
+      if (order == Order::of_direction && has_orders && !impact.rubbing.empty()) {
+        throw ModelError("directional has no impacts with friction on several contacts yet");
+      }
       if (order == Order::of_direction && has_orders) {
         push_along(model, tape, tape.impacts[k], de, impact, z, left);
       } else {
@@ -114,14 +125,20 @@ double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Ta
                    ParameterGradient* to) {
   if (impact.is_together) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
-    const VecX residual = pull_kick(impact.kick, z);
+    VecX extra, residual;
+    pull_kick(impact.kick, VecX(), z, extra, residual);
     if (to != nullptr && residual.size() > 0) {
-      add_kick_gradient(model, impact.kick, residual, impact.node.motion, *to);
+      add_kick_gradient(model, impact.node.q, impact.kick, residual, impact.node.w, *to);
     }
     shift_back(impact.flow, n, impact.slope, z, left);
     return 0;
   }
   double of_e = 0;
+  for (auto each = impact.rubbing.rbegin(); each != impact.rubbing.rend(); ++each) {
+    of_e += pull_friction(model, *each, impact.node, z, to);
+    const VecX& n = impact.node.gaps[static_cast<std::size_t>(each->contact)].n;
+    shift_back(each->flow, n, each->slope, z, left);
+  }
   for (auto each = impact.impulses.rbegin(); each != impact.impulses.rend(); ++each) {
     const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each->contact)];
     const double of_lambda = pull_impulse(gap, *each, z);
@@ -166,7 +183,8 @@ void pull_program(const ModelData& model, StepProgram& program, Tangent& z, Step
     if (piece->kind == Kind::rest) left = of_tau;
     if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);
   }
-  to.h += left;
+  if (program.start.q.size() > 0) program.start.pull(z.energy, z);
+  to.h += left + z.h;
 }
 
 }  // namespace saltus

@@ -5,6 +5,7 @@
 // walks the tape evaluates the arcs again, about a Newton iteration each.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,20 @@ namespace saltus {
 /// A contact that pushes: over an arc, or in the kick that ends it.
 struct TapeRow {
   int pair = -1;
+  int joint = -1;          ///< velocity of a joint with dry friction; P is along it, and no pair
   bool is_frozen = false;  ///< held as `frozen`, a plane of b
+  bool is_point = false;   ///< and there at a point of a
   Pair frozen;
-  double lambda = 0;  ///< [N s]
+  double friction = 0;
+  Vec3 P =
+      Vec3::Zero();  ///< [N s] along n and two tangents: tangents(n, axis), or those fixed in b
+  int axis = 0;
+  bool slides = false;
+  Vec3 point_B = Vec3::Zero();  ///< [m] where it starts, in the frame of b's joint; if is_point
+  std::array<Vec3, 2> t_B = {Vec3::Zero(), Vec3::Zero()};  ///< tangents fixed in b
+  /// Of a kick: its friction is along that of row `held` of the arc, which slid.
+  bool is_along = false;
+  int held = -1;
 };
 
 /// An arc (q, v, tau), as solved.
@@ -32,12 +44,16 @@ struct TapeArc {
   double t = 0;    ///< [s] when it starts
   double tau = 0;  ///< [s]
   End end = End::step;
-  double part = 1;                  ///< tau / h where its end is `part`
-  int pair = -1;                    ///< whose gap closed
-  VecX q, p;                        ///< (n_q), (n_v) at its start
-  VecX v;                           ///< (n_v)
-  VecX q_end, p_end;                ///< likewise at its end
-  VecX shift;                       ///< (n_v) of stiff damping, or empty
+  double part = 1;    ///< tau / h where its end is `part`
+  int pair = -1;      ///< whose gap closed
+  VecX q, p;          ///< (n_q), (n_v) at its start
+  VecX v;             ///< (n_v)
+  VecX q_end, p_end;  ///< likewise at its end
+  VecX shift;         ///< (n_v) of stiff damping, or empty
+  /// Of an arc after an impact whose law matches energies: index in the impact's contacts of the
+  /// one whose impulse was changed, and by how much; -1: none was.
+  int matched = -1;
+  double delta = 0;                 ///< [N s]
   std::vector<TapeRow> held, kick;  ///< pools: the first n_held and n_kick are valid
   int n_held = 0, n_kick = 0;
 };
@@ -52,6 +68,8 @@ struct TapeContact {
 struct TapeImpulse {
   int contact;  ///< index in the impact's contacts
   double lambda;
+  Vec3 P = Vec3::Zero();  ///< with friction: along n and tangents(n, axis)
+  int axis = 0;
 };
 
 struct TapeImpact {
@@ -70,6 +88,7 @@ struct Tape {
     int index;  ///< in arcs or impacts
   };
   double t = 0, h = 0;
+  ImpactLaw law = ImpactLaw::nodal_energy;
   VecX q, p;  ///< at its start
   VecX q_end, p_end;
   ForceInput input;
@@ -79,7 +98,8 @@ struct Tape {
   int n_arcs = 0, n_impacts = 0;
   /// What of the step derivatives are not made of yet, in words; "" where there is nothing.
   std::string refusal;
-  bool is_whole = false;  ///< the step was made
+  bool has_settled = false;  ///< a bounce ended in the step, as of a pair that rests
+  bool is_whole = false;     ///< the step was made
 };
 
 }  // namespace saltus

@@ -16,7 +16,7 @@
 #include <Eigen/LU>
 
 #include "collision/shapes/point_distance.hpp"
-#include "saltus/collision/gap.hpp"
+#include "saltus/collision/gap_motion.hpp"
 
 namespace saltus {
 namespace {
@@ -44,7 +44,40 @@ void add_patch(const Patch& patch, double sign, const Mat32& E, int first, Mat6&
   }
 }
 
+/// M, and g as a matrix that takes t.
+struct Stationary {
+  Mat6 M = Mat6::Zero(), g = Mat6::Zero();
+};
+
+Stationary stationary(const Gap& gap, const Mat32& E) {
+  Stationary out;
+  Mat6 &M = out.M, &g = out.g;
+  add_patch(gap.a, 1, E, 0, M);
+  add_patch(gap.b, -1, E, 2, M);
+  M(4, 4) = M(5, 5) = -gap.d;
+  for (int i = 0; i < gap.a.dim; ++i) {  // T.(n x w) = w.(T x n)
+    g.block<1, 3>(i, 0) = tangent(gap.a, i).cross(gap.n_W).transpose();
+  }
+  g.bottomRightCorner<2, 3>() = E.transpose();
+  return out;
+}
+
 }  // namespace
+
+GapMotion gap_motion(const Gap& gap) {
+  const Mat32 E = axes_across(gap.n_W);
+  const Stationary s = stationary(gap, E);
+  const Mat6 z = -Eigen::FullPivLU<Mat6>(s.M).solve(s.g);
+  GapMotion out;
+  out.n = E * z.bottomRows<2>();
+  const double r_a = (gap.center_W - gap.p_WA).dot(gap.n_W), r_b = gap.d - gap.phi - r_a;
+  out.p_WA = -r_a * out.n;
+  out.p_WA.rightCols<3>() += Mat3::Identity();  // u is the velocity of the core's point
+  out.p_WB = r_b * out.n;
+  for (int i = 0; i < gap.a.dim; ++i) out.p_WA += tangent(gap.a, i) * z.row(i);
+  for (int i = 0; i < gap.b.dim; ++i) out.p_WB += tangent(gap.b, i) * z.row(2 + i);
+  return out;
+}
 
 Mat6 curvature(const Gap& gap) {
   const Mat32 E = axes_across(gap.n_W);
@@ -54,14 +87,7 @@ Mat6 curvature(const Gap& gap) {
     if (apart) C.bottomRightCorner<3, 3>() = E * E.transpose() / gap.d;
     return C;
   }
-  Mat6 M = Mat6::Zero(), g = Mat6::Zero();
-  add_patch(gap.a, 1, E, 0, M);
-  add_patch(gap.b, -1, E, 2, M);
-  M(4, 4) = M(5, 5) = -gap.d;
-  for (int i = 0; i < gap.a.dim; ++i) {  // T.(n x w) = w.(T x n)
-    g.block<1, 3>(i, 0) = tangent(gap.a, i).cross(gap.n_W).transpose();
-  }
-  g.bottomRightCorner<2, 3>() = E.transpose();
+  const auto [M, g] = stationary(gap, E);
   C = -g.transpose() * Eigen::FullPivLU<Mat6>(M).solve(g);
   return 0.5 * (C + C.transpose());
 }

@@ -1,4 +1,7 @@
 // Writes the tape of a step, where one is asked for.
+#include <cmath>
+
+#include "saltus/collision/slip.hpp"
 #include "variational/step/stepper_impl.hpp"
 
 namespace saltus {
@@ -22,6 +25,8 @@ void Stepper::Impl::start_tape(const State& state) {
   tape.pieces.clear();
   tape.n_arcs = tape.n_impacts = 0;
   tape.refusal.clear();
+  tape.has_settled = false;
+  tape.law = scene.options.law;
   tape.is_whole = false;
   tape.t = state.t;
   tape.h = scene.options.h;
@@ -30,14 +35,80 @@ void Stepper::Impl::start_tape(const State& state) {
   tape.input = input;
 }
 
-/// A row as it was held.
-void Stepper::Impl::record_row(const Row& row, double lambda, TapeRow& to) {
+/// An arc that meets the energy from before the impact.
+void Stepper::Impl::record_match(const Launch& launch, TapeArc& to) {
+  const TapeImpact& last_impact =
+      recorded->impacts[static_cast<std::size_t>(recorded->n_impacts - 1)];
+  const int k = launch.impulse - report.impacts.back().first;
+  to.matched = last_impact.impulses[static_cast<std::size_t>(k)].contact;
+  to.delta = flight.work.line.lambda;
+  if (count_pressed(flight.work.rows) > 0) {
+    refuse("contacts that are held after an impact whose law matches energies");
+  }
+  if (scene.options.law == ImpactLaw::compensated) refuse("the impact law compensated");
+}
+
+/// A row as it was held, and pushed with P along its tangents.
+void Stepper::Impl::record_row(const Row& row, double friction, const Vec3& P, TapeRow& to) {
   to.pair = pool.number(row.slot);
+  to.joint = -1;
   to.is_frozen = row.is_frozen;
-  to.lambda = lambda;
+  to.is_point = row.is_point;
+  to.friction = friction;
+  to.P = P;
+  to.axis = row.axis;
+  to.slides = row.slides;
+  to.is_along = false;
   if (!row.is_frozen) return;
   to.frozen = row.frozen;
+  if (friction > 0) to.t_B = row.t_B;
+  to.point_B = row.point_B;
   if (std::holds_alternative<Rim>(row.pair->kind)) refuse("a rim that is held at a point");
+}
+
+/// Joint number `dry` of those with dry friction, which slides where it pushes all it can.
+void Stepper::Impl::record_joint(int dry, double P, double tau, TapeRow& to) {
+  const auto k = static_cast<std::size_t>(dry);
+  VecX row = VecX::Zero(scene.model.tree.n_v);
+  add(scene.trees, 1, node.dry[k].n, row);
+  Eigen::Index velocity = 0;
+  row.cwiseAbs().maxCoeff(&velocity);
+  to.pair = -1;
+  to.joint = static_cast<int>(velocity);
+  to.is_frozen = to.is_point = to.is_along = false;
+  to.friction = 0;
+  to.P = Vec3(P, 0, 0);
+  to.slides = std::abs(P) >= (1 - 1e-9) * tau / 2 * node.dry_force[k];
+}
+
+/// Of the kick that closes the arc: its impulse in the frame that the arc's row has there.
+void Stepper::Impl::record_kick(std::size_t k, TapeArc& arc) {
+  const Contact& c = *kick.contacts[k];
+  const Rows& rows = flight.work.rows;
+  for (int i = 0; i < rows.count; ++i) {
+    const Row& row = rows.row[static_cast<std::size_t>(i)];
+    if (row.slot != c.slot) continue;
+    Vec3 P = kick.p[k];
+    if (c.friction > 0) {
+      const Vec3 push = across(c, kick.p[k]);
+      std::array<Vec3, 2> t;
+      if (row.is_frozen) {
+        const Mat3 R = node.kin.X_WJ(scene.model.tree, row.pair->on_b.joint).R;
+        t = {R * row.t_B[0], R * row.t_B[1]};
+      } else {
+        const Tangents own = tangents(c.n_W, row.axis);
+        t = {own.t0, own.t1};
+      }
+      P = Vec3(kick.p[k][0], push.dot(t[0]), push.dot(t[1]));
+    }
+    TapeRow& to = next_of(arc.kick, arc.n_kick);
+    record_row(row, c.friction, P, to);
+    to.is_along = c.friction > 0 && !kick.push[k].isZero(0) && row.is_pressed();
+    for (int held = 0; held < arc.n_held; ++held) {
+      if (arc.held[static_cast<std::size_t>(held)].pair == to.pair) to.held = held;
+    }
+    return;
+  }
 }
 
 /// Of the arc just flown, whose node has not been left yet.
@@ -62,23 +133,20 @@ void Stepper::Impl::record_arc(double asked, double left, const Launch* launch) 
   to.p = node.p;
   to.v = work.arc.v;
   to.shift = work.scratch.shift;
-  if (launch != nullptr && work.line.use != LaunchLine::Use::none) {
-    refuse("an impact whose law matches energies");
-  }
+  to.matched = -1;
+  if (launch != nullptr && work.line.use != LaunchLine::Use::none) record_match(*launch, to);
   to.n_held = to.n_kick = 0;
   for (const int i : work.rows.active) {
     const Row& row = work.rows.row[static_cast<std::size_t>(i)];
     if (row.is_joint()) {
-      refuse("joints with dry friction");
+      record_joint(-1 - row.contact, row.p[0], work.rows.tau, next_of(to.held, to.n_held));
     } else if (row.is_pressed()) {
-      if (node.contacts[static_cast<std::size_t>(row.contact)].friction > 0) {
-        refuse("contacts with friction that are held");
-      }
-      record_row(row, row.p[0], next_of(to.held, to.n_held));
+      const double friction = node.contacts[static_cast<std::size_t>(row.contact)].friction;
+      record_row(row, friction, row.p, next_of(to.held, to.n_held));
     }
   }
   if (work.scratch.loops) refuse("loops");
-  if (!flight.settlings.empty()) refuse("bounces that come to rest within the step");
+  tape.has_settled = tape.has_settled || !flight.settlings.empty();
 }
 
 /// Where that arc ended, as the next one starts.
@@ -88,15 +156,14 @@ void Stepper::Impl::record_end() {
   to.q_end = node.q;
   to.p_end = node.p;
   if (node.q != flight.work.arc.q_end) refuse("overlap that was moved apart");
-  const Rows& rows = flight.work.rows;
-  for (std::size_t k = 0; rows.count > 0 && k < kick.contacts.size(); ++k) {
+  if (flight.work.rows.count == 0) return;
+  for (std::size_t k = 0; k < kick.contacts.size(); ++k) {
     const Contact& c = *kick.contacts[k];
-    if (c.bound > 0 || !(kick.p[k][0] > 0)) continue;
-    if (c.friction > 0) refuse("contacts with friction that are held");
-    for (int i = 0; i < rows.count; ++i) {
-      const Row& row = rows.row[static_cast<std::size_t>(i)];
-      if (row.slot != c.slot) continue;
-      record_row(row, kick.p[k][0], next_of(to.kick, to.n_kick));
+    if (c.bound > 0) {
+      const int dry = -2 - c.slot;
+      record_joint(dry, kick.p[k][0], flight.work.rows.tau, next_of(to.kick, to.n_kick));
+    } else if (kick.p[k][0] > 0) {
+      record_kick(k, to);
     }
   }
 }
@@ -116,7 +183,6 @@ void Stepper::Impl::record_contacts() {
   for (int i = 0; i < node.touching; ++i) {
     const Contact& c = node.contacts[i];
     to.contacts.push_back({pool.number(c.slot), c.u, c.epsilon_u, c.restitution, c.friction});
-    if (c.friction > 0) refuse("an impact with friction");
   }
 }
 
@@ -128,7 +194,16 @@ void Stepper::Impl::record_impulses() {
   if (scene.options.law == ImpactLaw::custom) {
     refuse("an impact by a law of your own, whose derivatives are not told");
   }
-  for (const Impulse& each : impact.impulses) to.impulses.push_back({each.pair, each.lambda});
+  if (has_friction(node) && scene.options.law != ImpactLaw::custom) {
+    for (const FrictionImpulse& each : impact.friction.impulses) {
+      const Contact& c = node.contacts[static_cast<std::size_t>(each.contact)];
+      to.impulses.push_back({each.contact, each.p[0], each.p, tangent_axis(c.n_W)});
+    }
+  } else {
+    for (const Impulse& each : impact.impulses) {
+      to.impulses.push_back({each.pair, each.lambda, Vec3(each.lambda, 0, 0), 0});
+    }
+  }
   const bool is_alone = to.contacts.size() == 1;
   bool all_plastic = true;
   for (const TapeContact& c : to.contacts) all_plastic = all_plastic && c.restitution == 0;

@@ -286,6 +286,7 @@ double Stepper::Impl::conserved_energy() {
 void Stepper::Impl::end_step(const Launch* launch) {
   if (launch != nullptr) {
     fly_one_arc(0, launch);
+    refuse("an impact at its end whose law matches energies");
     node.p = flight.work.arc.p_end;
     node.v = flight.work.arc.v;
   }

@@ -62,7 +62,10 @@ struct Stepper::Impl {
   void refuse(const char* why);
   void start_tape(const State& state);
   void record_arc(double asked, double left, const Launch* launch);
-  void record_row(const Row& row, double lambda, TapeRow& to);
+  void record_match(const Launch& launch, TapeArc& to);
+  void record_row(const Row& row, double friction, const Vec3& P, TapeRow& to);
+  void record_joint(int dry, double P, double tau, TapeRow& to);
+  void record_kick(std::size_t k, TapeArc& arc);
   void record_end();
   void record_contacts();
   void record_impulses();

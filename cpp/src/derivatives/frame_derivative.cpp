@@ -1,0 +1,148 @@
+#include "derivatives/frame_derivative.hpp"
+
+#include <algorithm>
+
+#include "saltus/collision/gap_motion.hpp"
+
+namespace saltus {
+namespace {
+
+/// Where a contact is, and how that moves.
+struct Placed3 {
+  Vec3 P;
+  std::array<Vec3, 3> d;
+};
+
+Placed3 place_rows(const ModelData& model, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                   const FrameChoice& choice) {
+  Placed3 out;
+  out.P = contact_point(gap);
+  if (choice.at_a) out.P = gap.p_WA;
+  out.d[0] = gap.n_W;
+  if (choice.axis >= 0) {
+    const Tangents t = tangents(gap.n_W, choice.axis);
+    out.d[1] = t.t0;
+    out.d[2] = t.t1;
+  } else {
+    const Mat3 R = kin.X_WJ(model.tree, pair.on_b.joint).R;
+    for (int k = 0; k < 2; ++k) out.d[k + 1] = R * choice.t_B[k];
+  }
+  return out;
+}
+
+/// What a change of n makes of tangents(n, axis).
+void turn_tangents(const Vec3& n, const Vec3& dn, int axis, const std::array<Vec3, 3>& d,
+                   std::array<Vec3, 3>& change) {
+  const Vec3 raw = Vec3::Unit(axis) - n[axis] * n, draw = -dn[axis] * n - n[axis] * dn;
+  change[2] = (draw - d[2] * d[2].dot(draw)) / raw.norm();
+  change[1] = change[2].cross(n) + d[2].cross(dn);
+}
+
+/// Screw of one joint of a chain at P.
+struct Screw {
+  Vec3 w, xi;
+  double sign;
+};
+
+Screw screw_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
+  const Vec6& S = kin.joint[k.joint].S;
+  const Vec3 P = P_W - kin.origin[tree.root[k.joint]];
+  return {angular(S), angular(S).cross(P) + linear(S), static_cast<double>(k.sign)};
+}
+
+bool turns_below(const Tree& tree, int j, int k) {
+  if (j == k || !tree.is_ancestor(j, k)) return false;
+  const bool is_one_ball = tree.joint[j].is_ball() && tree.joint[k].is_ball() &&
+                           j - tree.joint[j].axis == k - tree.joint[k].axis;
+  return !is_one_ball;
+}
+
+void set_stop(const ModelData& model, const Pair& pair, FrameDerivative& out) {
+  const Drive& drive = model.tree.drive[pair.on_a.joint];
+  set_joint_frame(model, drive.velocity, out);
+  out.row[0] *= pair.stop.side * drive.multiplier;
+}
+
+}  // namespace
+
+void set_frame(const ModelData& model, const Kinematics& kin, const Pair& pair,
+               const FrameChoice& choice, FrameDerivative& out) {
+  const Tree& tree = model.tree;
+  for (VecX& each : out.row) each.setZero(tree.n_v);
+  if (pair.is_stop()) return set_stop(model, pair, out);
+  out.velocities.clear();
+  for (const ChainJoint& k : pair.chain) out.velocities.push_back(tree.drive[k.joint].velocity);
+  std::sort(out.velocities.begin(), out.velocities.end());
+  out.velocities.erase(std::unique(out.velocities.begin(), out.velocities.end()),
+                       out.velocities.end());
+  const auto n = static_cast<Eigen::Index>(out.velocities.size());
+  for (MatX& each : out.H) each.setZero(n, n);
+  const auto index = [&](const Drive& drive) {
+    return std::lower_bound(out.velocities.begin(), out.velocities.end(), drive.velocity) -
+           out.velocities.begin();
+  };
+  const Gap gap = pair_gap(tree, kin, pair);
+  const GapMotion motion = gap_motion(gap);
+  const Placed3 at = place_rows(model, kin, pair, gap, choice);
+  for (const ChainJoint& joint_j : pair.chain) {
+    const Screw j = screw_of(tree, kin, joint_j, at.P);
+    const Screw center = screw_of(tree, kin, joint_j, gap.center_W);
+    Vec6 t;
+    t << j.sign * j.w, j.sign * center.xi;
+    const bool moves_b = j.sign < 0;
+    std::array<Vec3, 3> d;
+    d[0] = motion.n * t;
+    if (moves_b) d[0] += j.w.cross(gap.n_W);
+    Vec3 dP = choice.at_a ? Vec3(motion.p_WA * t) : Vec3((motion.p_WA + motion.p_WB) * t / 2);
+    if (moves_b) dP += j.xi;
+    if (choice.axis >= 0) {
+      turn_tangents(gap.n_W, d[0], choice.axis, at.d, d);
+    } else {
+      for (int i = 1; i < 3; ++i) d[i] = moves_b ? Vec3(j.w.cross(at.d[i])) : Vec3(Vec3::Zero());
+    }
+    const Drive& drive_j = tree.drive[joint_j.joint];
+    for (const ChainJoint& joint_k : pair.chain) {
+      const Screw k = screw_of(tree, kin, joint_k, at.P);
+      Vec3 change = k.w.cross(dP);
+      if (turns_below(tree, joint_j.joint, joint_k.joint)) {
+        change += j.w.cross(k.xi) - k.w.cross(j.xi);
+      }
+      const Drive& drive_k = tree.drive[joint_k.joint];
+      const double by = drive_j.multiplier * drive_k.multiplier * k.sign;
+      for (int i = 0; i < 3; ++i) {
+        out.H[i](index(drive_k), index(drive_j)) += by * (d[i].dot(k.xi) + at.d[i].dot(change));
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      out.row[i][drive_j.velocity] += drive_j.multiplier * j.sign * at.d[i].dot(j.xi);
+    }
+  }
+}
+
+void set_joint_frame(const ModelData& model, int velocity, FrameDerivative& out) {
+  for (VecX& each : out.row) each.setZero(model.tree.n_v);
+  out.velocities.assign(1, velocity);
+  for (MatX& each : out.H) each.setZero(1, 1);
+  out.row[0][velocity] = 1;
+}
+
+void add_row_change(const FrameDerivative& frame, int i, const VecX& dq, double factor, VecX& to) {
+  const auto n = static_cast<Eigen::Index>(frame.velocities.size());
+  for (Eigen::Index r = 0; r < n; ++r) {
+    double sum = 0;
+    for (Eigen::Index c = 0; c < n; ++c) sum += frame.H[i](r, c) * dq[frame.velocities[c]];
+    to[frame.velocities[r]] += factor * sum;
+  }
+}
+
+void add_row_covector(const FrameDerivative& frame, int i, const VecX& row_hat, double factor,
+                      VecX& q) {
+  const auto n = static_cast<Eigen::Index>(frame.velocities.size());
+  for (Eigen::Index c = 0; c < n; ++c) {
+    double sum = 0;
+    for (Eigen::Index r = 0; r < n; ++r) sum += frame.H[i](r, c) * row_hat[frame.velocities[r]];
+    q[frame.velocities[c]] += factor * sum;
+  }
+}
+
+}  // namespace saltus
