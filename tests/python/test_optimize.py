@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from tests.python.driven_models import acrobot, bouncer, cart, spinner
+from tests.python.driven_models import acrobot, bouncer, cart, puck, spinner
 
 import saltus
 from saltus import ModelError, optimize
@@ -231,3 +231,25 @@ def test_what_no_control_moves_is_told():
     assert hits.converged
     assert hits.impacts == {"cart ~ other": 1}
     assert hits.q[-1, 1] == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize("height", [0.0, 0.1])  # it slides; it bounces, and slides
+def test_ilqr_pushes_against_friction(height):
+    model, h, N = puck(), 0.02, 40
+    start, goal = model.state({"z": height}), model.state({"x": 0.5})
+    cost = optimize.Quadratic(model, goal, control=1e-3, final_q=[100, 0], final_v=[10, 0])
+    plan = optimize.ilqr(model, start, cost, np.full((N, 1), 5.0), h=h)
+    assert plan.converged
+    assert abs(plan.q[-1, 0] - 0.5) < 0.01
+    system = System(model, h, {})
+    for k in range(0, N, 5):  # no control can be better by itself
+        for e in (1e-2, -1e-2):
+            u = plan.control.copy()
+            u[k] += e
+            assert total(system, cost, system.roll(start, u)) > plan.cost
+    # friction brakes: without it, the same controls go farther
+    smooth = model.builder().set_default_contact(friction=0.0, restitution=0.5).build()
+    run = saltus.simulate(
+        smooth, state=start, duration=N * h, h=h, control=plan.control, progress=False
+    )
+    assert run.q[-1, 0] > 0.8
