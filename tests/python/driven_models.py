@@ -48,3 +48,16 @@ def spinner() -> saltus.Model:
         "elbow", "revolute", parent="body", child="arm", X_PJ=Pose((0, 0, -0.3)), axis=(0, 1, 0)
     )
     return builder.add_motor("motor", joint="elbow").build()
+
+
+def puck() -> saltus.Model:
+    """Return a puck that slides on a floor with friction and may leave it, pushed along."""
+    builder = ModelBuilder().add_half_space("floor", (0, 0, 1))
+    builder.add_link("rail", BodyInertia(0.01, (0, 0, 0), 1e-5 * np.eye(3)))
+    builder.add_joint("x", "prismatic", parent="world", child="rail", axis=(1, 0, 0))
+    builder.add_link("puck", BodyInertia(1.0, (0, 0, 0), 0.004 * np.eye(3)))
+    X = Pose((0, 0, 0.1))
+    builder.add_joint("z", "prismatic", parent="rail", child="puck", axis=(0, 0, 1), X_PJ=X)
+    builder.add_shape("puck", saltus.Sphere(0.1))
+    builder.set_default_contact(friction=0.3, restitution=0.5)
+    return builder.add_motor("push", joint="x").build()

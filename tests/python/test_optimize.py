@@ -7,86 +7,13 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import lsq_linear, minimize
-from tests.python.driven_models import acrobot, bouncer, cart, spinner
+from scipy.optimize import minimize
+from tests.python.driven_models import acrobot, bouncer, cart, puck, spinner
 
 import saltus
 from saltus import ModelError, optimize
-from saltus.optimize.costs import expand, total
-from saltus.optimize.curvature import Curvature
-from saltus.optimize.riccati import box_qp
-from saltus.optimize.system import System, difference_slopes
-
-# -- the parts
-
-
-def test_box_qp_against_another_solver():
-    rng = np.random.default_rng(0)
-    for _ in range(50):
-        n = int(rng.integers(1, 6))
-        R, g = rng.normal(size=(n + 2, n)), rng.normal(size=n)
-        low, high = -rng.uniform(0, 0.5, n), rng.uniform(0, 0.5, n)
-        found = box_qp(R.T @ R, g, low, high)
-        assert found is not None
-        b = -np.linalg.lstsq(R.T, g, rcond=None)[0]
-        other = lsq_linear(R, b, bounds=(low, high + 1e-300), tol=1e-14, method="bvls")
-        assert np.allclose(found[0], other.x, atol=1e-9)
-    assert box_qp(np.diag([1.0, -1.0]), np.ones(2), -np.ones(2), np.ones(2)) is None
-
-
-def test_a_difference_of_turns_moves_as_its_slopes_say():
-    model = spinner()
-    system, rng = System(model, 0.01, {}), np.random.default_rng(1)
-    for size in (1e-5, 0.3, 2.0):
-        goal = model.integrate(model.neutral(), rng.normal(size=4))
-        dq = rng.normal(size=4)
-        dq *= size / np.linalg.norm(dq[:3])
-        q = model.integrate(goal, dq)
-        J = difference_slopes(system.balls, model.difference(goal, q))
-        for i, eta in enumerate(1e-5 * np.eye(4)):
-            ahead, behind = (model.integrate(q, s * eta) for s in (1, -1))
-            by = (model.difference(goal, ahead) - model.difference(goal, behind)) / 2e-5
-            assert np.allclose(J[:, i], by, atol=1e-9)  # 1e-10 by truncation
-
-
-@pytest.mark.parametrize("make", [acrobot, bouncer, spinner])
-def test_gradient_and_curvature_of_a_cost_against_differences(make):
-    model, h = make(), 0.02
-    system, rng = System(model, h, {}), np.random.default_rng(2)
-    n, m = 2 * model.n_v, model.n_u
-    goal = model.state(model.integrate(model.neutral(), 0.5 * rng.normal(size=model.n_v)))
-    weights = {"q": 1.0, "v": 0.3, "control": 0.1, "final_q": 2.0, "final_v": 0.7}
-    cost = optimize.Quadratic(model, goal, **weights)
-    q = model.integrate(model.neutral(), 0.2 * np.abs(rng.normal(size=model.n_v)))
-    start = model.state(q, rng.normal(size=model.n_v))
-    path = system.roll(start, rng.normal(size=(1, m)))
-
-    def value(z: np.ndarray) -> float:
-        moved = system.roll(system.shift(start, z[:n]), path.control + z[n:])
-        return total(system, cost, moved)
-
-    terms, slopes = expand(system, cost, path), system.linearize(path)
-    after = terms.x[1]
-    gradient = np.concatenate(
-        [terms.x[0] + slopes.A[0].T @ after, terms.u[0] + slopes.B[0].T @ after]
-    )
-    e = 1e-5 * np.eye(n + m)
-    by = np.array([value(d) - value(-d) for d in e]) / 2e-5
-    assert np.allclose(gradient, by, atol=1e-8 * max(1, np.abs(by).max()))
-    # l + V_x . F plus F_x^T V_xx F_x is all of the second derivative
-    bent = Curvature(system, cost, path)
-    F = np.hstack([slopes.A[0], slopes.B[0]])
-    H = bent(0, after) + F.T @ bent.of_the_end() @ F
-    by = np.zeros_like(H)
-    e = 1e-3 * np.eye(n + m)
-    for i, a in enumerate(e):
-        for j, b in enumerate(e):
-            by[i, j] = value(a + b) - value(a - b) - value(b - a) + value(-a - b)
-    by /= 4e-6
-    assert np.allclose(H, by, atol=1e-4 * np.abs(by).max())  # 1e-6 by truncation, times the next
-
-
-# -- ilqr
+from saltus.optimize.costs import total
+from saltus.optimize.system import System
 
 
 def test_a_linear_problem_takes_one_iteration():
@@ -269,3 +196,60 @@ def test_ilqr_says_what_is_wrong():
         iterations=1,
     )
     assert short.message == "1 iterations were not enough"
+
+
+def test_costs_that_are_none():
+    model, zeros = acrobot(), np.zeros((5, 1))
+    start = model.state()
+    with pytest.raises(TypeError, match="cost is a NoneType; it is a Quadratic, Residuals"):
+        optimize.ilqr(model, start, None, zeros)
+    with pytest.raises(ModelError, match="2 targets for 5 steps"):
+        optimize.ilqr(model, start, optimize.Quadratic(model, [start, start]), zeros)
+    cost = optimize.Quadratic(model, start, control_target=np.zeros((3, 1)))
+    with pytest.raises(ModelError, match=r"control_target has shape \(3, 1\)"):
+        optimize.ilqr(model, start, cost, zeros)
+    nothing = optimize.ilqr(model, start, optimize.Quadratic(model, start), zeros)
+    assert nothing.converged
+    goal = model.state({"shoulder": 1.0})
+    free = optimize.Quadratic(model, goal, final_q=1.0)  # of no effort
+    plan = optimize.ilqr(model, start, free, np.zeros((20, 1)), h=0.05)
+    assert plan.converged
+    assert plan.cost < 1e-20
+
+
+def test_what_no_control_moves_is_told():
+    builder = saltus.ModelBuilder().set_gravity((0, 0, 0))
+    for name, x in (("cart", 0.0), ("other", 0.5)):
+        X = saltus.Pose((x, 0, 0))
+        builder.add_body(name, saltus.Sphere(0.1), mass=1.0, X=X, joint="prismatic")
+    model = builder.add_motor("force", joint="cart").build()
+    goal = model.state(q=[0.2, 0.5])
+    cost = optimize.Quadratic(model, goal, control=1e-3, final_q=[0.0, 100.0])
+    plan = optimize.ilqr(model, model.state(), cost, np.zeros((20, 1)), h=0.05)
+    assert "hits nothing" in plan.message
+    hits = optimize.ilqr(model, model.state(), cost, np.full((20, 1), 2.0), h=0.05)
+    assert hits.converged
+    assert hits.impacts == {"cart ~ other": 1}
+    assert hits.q[-1, 1] == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize("height", [0.0, 0.1])  # it slides; it bounces, and slides
+def test_ilqr_pushes_against_friction(height):
+    model, h, N = puck(), 0.02, 40
+    start, goal = model.state({"z": height}), model.state({"x": 0.5})
+    cost = optimize.Quadratic(model, goal, control=1e-3, final_q=[100, 0], final_v=[10, 0])
+    plan = optimize.ilqr(model, start, cost, np.full((N, 1), 5.0), h=h)
+    assert plan.converged
+    assert abs(plan.q[-1, 0] - 0.5) < 0.01
+    system = System(model, h, {})
+    for k in range(0, N, 5):  # no control can be better by itself
+        for e in (1e-2, -1e-2):
+            u = plan.control.copy()
+            u[k] += e
+            assert total(system, cost, system.roll(start, u)) > plan.cost
+    # friction brakes: without it, the same controls go farther
+    smooth = model.builder().set_default_contact(friction=0.0, restitution=0.5).build()
+    run = saltus.simulate(
+        smooth, state=start, duration=N * h, h=h, control=plan.control, progress=False
+    )
+    assert run.q[-1, 0] > 0.8

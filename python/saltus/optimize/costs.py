@@ -114,6 +114,19 @@ class Quadratic:
         if self.control_target.ndim < 2:
             self.control_target = np.broadcast_to(self.control_target, (1, m))
 
+    def check(self, steps: int) -> None:
+        """Raise ModelError where the targets are those of another number of steps."""
+        if len(self.targets) not in (1, steps + 1):
+            raise ModelError(
+                f"{len(self.targets)} targets for {steps} steps; give one, or one for each of the "
+                f"{steps + 1} states"
+            )
+        if self.control_target.shape not in ((1, len(self.control)), (steps, len(self.control))):
+            raise ModelError(
+                f"control_target has shape {self.control_target.shape}; it is "
+                f"({len(self.control)},), or ({steps}, {len(self.control)}), a row for each step"
+            )
+
     def distance(self, k: int, q: Array, v: Array, W: Array, V: Array) -> Expansion:
         """Return the squares of the state, by (q, v)."""
         q_goal, v_goal = self.targets[min(k, len(self.targets) - 1)]
@@ -235,3 +248,14 @@ def check(term: Expansion, n: int, what: str) -> None:
         )
     if not (np.isfinite(term[0]) and np.all(np.isfinite(term[1])) and np.all(np.isfinite(term[2]))):
         raise ModelError(f"the cost of {what} or its derivatives are not finite")
+
+
+def check_cost(cost: object, steps: int) -> None:
+    """Raise where a cost has no functions, or targets of another number of steps."""
+    if not (callable(getattr(cost, "stage", None)) and callable(getattr(cost, "final", None))):
+        raise TypeError(
+            f"cost is a {type(cost).__name__}; it is a Quadratic, Residuals, or has the methods "
+            "stage and final of optimize.Cost"
+        )
+    if isinstance(cost, Quadratic):
+        cost.check(steps)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from saltus._core import Model, ModelError, State, StepError
-from saltus.optimize.costs import Cost, Expansions, expand, total
+from saltus.optimize.costs import Cost, Expansions, check_cost, expand, total
 from saltus.optimize.curvature import Curvature
 from saltus.optimize.plan import Plan
 from saltus.optimize.riccati import Feedback, backward
@@ -71,6 +71,10 @@ class Search:
     message: str = ""
     converged: bool = False
 
+    def enough(self, tolerance: float) -> float:
+        """Return what is too little to gain: a part of the cost, and rounding of squares."""
+        return max(tolerance * abs(self.cost), 1e-28 * abs(self.costs[0]))
+
     def damp(self, factor: float, unit: float) -> bool:
         """Raise the damping; whether it may still grow."""
         self.damping = max(self.damping * factor, LEAST_DAMPING * unit)
@@ -128,11 +132,16 @@ def improve(
             return False
         if search.gain is None:
             search.gain = by.gain
-        is_damped = search.damping > 0  # promises less than there is to gain
-        if not is_damped and by.decrement <= tolerance * (1e-300 + abs(search.cost)):
+        is_damped = search.damping > 1e-6 * unit  # promises less than there is to gain
+        if by.decrement <= 0 or (not is_damped and by.decrement <= search.enough(tolerance)):
             search.gain, search.converged = by.gain, True
             search.decrements.append(by.decrement)
             search.message = f"converged: {by.decrement:.1e} of the cost is left to gain"
+            if by.decrement == 0 and search.cost > 0 and len(search.costs) == 1:
+                search.message = (
+                    "the controls do not change the cost, to first order: a motion that hits "
+                    "nothing has no derivative by what it would hit"
+                )
             return False
         alpha = 1.0
         while alpha >= SHORTEST:
@@ -231,6 +240,7 @@ def ilqr(
     limits = to_bounds(model, bounds)
     guess = np.clip(to_controls(model, controls), *limits)
     check_numbers(start, {"iterations": iterations, "tolerance": tolerance})
+    check_cost(cost, len(guess))
     path = system.roll(start, guess)
     value = total(system, cost, path)
     search = Search(path, value, [value])
