@@ -49,6 +49,8 @@ def test_lqr_says_what_is_wrong():
         optimize.lqr(model, model.state({"shoulder": 1.0}))
     with pytest.raises(ModelError, match="control is not positive definite"):
         optimize.lqr(model, up, control=0.0)
+    with pytest.raises(ModelError, match=r"hold has shape \(2,\); it is \(1,\): motor"):
+        optimize.lqr(model, up, hold=[1.0, 2.0])
     with pytest.raises(ModelError, match="q has shape"):
         optimize.lqr(model, up, q=[1.0, 2.0, 3.0])
     with pytest.raises(ModelError, match="its least eigenvalue is -1"):

@@ -114,7 +114,12 @@ def lqr(
     The recursion by doubling (SDA), 2^k steps in k: Chu, Fan and Lin 2005.
     """
     system = System(model, h, options)
-    u = to_controls(model, [np.zeros(model.n_u) if hold is None else np.atleast_1d(hold)])
+    given = np.zeros(model.n_u) if hold is None else np.atleast_1d(np.asarray(hold, dtype=float))
+    if given.shape != (model.n_u,):
+        raise ModelError(
+            f"hold has shape {given.shape}; it is ({model.n_u},): {', '.join(model.control_names)}"
+        )
+    u = to_controls(model, given[None])
     cost = Quadratic(model, target, q=q, v=v, control=control, control_target=u[0])
     least = float(np.linalg.eigvalsh(cost.control)[0])
     if not least > 0:
