@@ -41,7 +41,8 @@ SALTUS_EXPORT std::string smoothness_name(Smoothness smoothness);
 
 /// A direction of a step's inputs; or a covector of them. Empty vectors are 0.
 struct StepDirection {
-  VecX q, p;         ///< (n_v) of the start
+  VecX q;            ///< (n_v) of the start, along velocities
+  VecX p;            ///< (n_v) of the start
   VecX control;      ///< (n_u)
   VecX qfrc;         ///< (n_v) [N m | N] of forces on the coordinates
   double h = 0;      ///< [s]
@@ -53,14 +54,16 @@ struct ModelGradient {
   /// (links, 10) of a link's own mass, first moment m c and inertia about its frame's origin, xx xy
   /// xz yy yz zz, in its frame; 0 of links fixed to the world. Compensation of gravity stays.
   MatX inertia;
-  VecX stiffness, rest;  ///< (n_v) of joints' linear springs
-  VecX damping;          ///< (n_v) [N m s/rad | N s/m]
-  VecX armature;         ///< (n_v)
+  VecX stiffness;  ///< (n_v) [N m/rad | N/m] of joints' linear springs
+  VecX rest;       ///< (n_v) [rad | m] where these are at rest
+  VecX damping;    ///< (n_v) [N m s/rad | N s/m]
+  VecX armature;   ///< (n_v) [kg m^2 | kg]
 };
 
 /// Of the state that a step ends in.
 struct StateDirection {
-  VecX q, p;  ///< (n_v)
+  VecX q;  ///< (n_v) along velocities
+  VecX p;  ///< (n_v)
 };
 
 /// An impact as its derivative sees it.
@@ -74,13 +77,13 @@ struct ImpactDerivative {
 
 /// Dense, for people and small models. Rows q, then p, of the state that the step ends in.
 struct StepDerivative {
-  MatX A;            ///< (2 n_v, 2 n_v) by q and p
-  MatX B;            ///< (2 n_v, n_u) by the controls
-  MatX qfrc;         ///< (2 n_v, n_v) by forces on the coordinates
-  VecX h;            ///< (2 n_v) by the step's duration
-  MatX restitution;  ///< (2 n_v, impacts)
-  Smoothness smoothness = Smoothness::smooth;
-  std::vector<ImpactDerivative> impacts;
+  MatX A;                                      ///< (2 n_v, 2 n_v) by q and p
+  MatX B;                                      ///< (2 n_v, n_u) by the controls
+  MatX qfrc;                                   ///< (2 n_v, n_v) by forces on the coordinates
+  VecX h;                                      ///< (2 n_v) by the step's duration
+  MatX restitution;                            ///< (2 n_v, impacts)
+  Smoothness smoothness = Smoothness::smooth;  ///< what all this is worth
+  std::vector<ImpactDerivative> impacts;       ///< in order
 };
 
 /// The derivative along one order of the impacts of one instant.
@@ -94,9 +97,12 @@ struct Selection {
 /// Owns a copy of the model and its working memory. Not thread-safe.
 class SALTUS_EXPORT StepDerivatives {
  public:
+  /// With room for a step's products.
   explicit StepDerivatives(const Model& model, const StepOptions& options = {});
   ~StepDerivatives();
+  /// The other one is of no use any more.
   StepDerivatives(StepDerivatives&&) noexcept;
+  /// Likewise.
   StepDerivatives& operator=(StepDerivatives&&) noexcept;
 
   /// Takes up the tape of a step (Stepper::tape): evaluates its arcs again, and factors them.
