@@ -26,6 +26,8 @@ Node::Node(const Scene& scene, PairPool& pairs)
   for (VecX* x : {&p, &v, &dq, &dense, &column}) x->setZero(scene.model.tree.n_v);
   const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
+  clear_pairs.fit(pool.size());
+  clear_solids.fit(pool.solids());
   add_dry_joints(scene, *this);
   M.lock = locks_of(scene.model.tree, scene.model.equalities);
 }
