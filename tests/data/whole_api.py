@@ -180,8 +180,31 @@ def damped(now: saltus.ForceMoment) -> tuple[Array, Array, Array]:
     return -0.1 * now.v, np.zeros((n, n)), -0.1 * np.eye(n)
 
 
+def derivatives() -> None:
+    """Look at a step's derivatives, and at feedback about an equilibrium."""
+    builder = saltus.ModelBuilder().add_body("bob", saltus.Sphere(0.1), mass=1, joint="prismatic",
+                                             joint_name="z", axis=(0, 0, 1))  # fmt: skip
+    model = builder.build()
+    stepper = saltus.Stepper(model, h=0.01, record=True)
+    stepper.advance(model.state())
+    whole: saltus.StepDerivative = stepper.derivative()
+    covector: saltus.StepDirection = stepper.vjp([1.0], [0.0])
+    by_model: saltus.ModelGradient = stepper.model_gradient([1.0], [0.0])
+    orders: list[saltus.Selection] = stepper.selections()
+    impacts: list[saltus.ImpactDerivative] = list(whole.impacts)
+    assert whole.smoothness == saltus.Smoothness.smooth
+    assert covector.q.shape == by_model.damping.shape == (1,)
+    assert orders == []
+    assert impacts == []
+    run = saltus.simulate(model, duration=0.02)
+    gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
+    assert gradient.q.shape == (1,)
+    assert saltus.optimize.Quadratic is not None
+
+
 def main() -> None:
     """Use all of it."""
+    derivatives()
     model = arm().build()
     look_at(model)
     shapes_and_gaps()
