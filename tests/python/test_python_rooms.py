@@ -33,6 +33,7 @@ ORDER = {
         "models",
         "impacts",
         "sensors",
+        "options",
         "recording",
         "pairs",
         "replace",

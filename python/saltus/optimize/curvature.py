@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from saltus._core import State
@@ -10,6 +12,17 @@ from saltus.optimize.system import Array, Rollout, System, difference_slopes
 
 # Of central differences of a gradient: (machine epsilon)^(1/3).
 STEP = 6e-6
+
+
+def hessian(gradient: Callable[[Array], Array], scales: Array) -> Array:
+    """Return the symmetric part of the derivative of a gradient at 0, by central differences."""
+    columns = []
+    for i, scale in enumerate(scales):
+        d = np.zeros(len(scales))
+        d[i] = STEP * scale
+        columns.append((gradient(d) - gradient(-d)) / (2 * STEP * scale))
+    H = np.stack(columns, axis=1)
+    return np.asarray(0.5 * (H + H.T))
 
 
 class Curvature:
@@ -39,34 +52,21 @@ class Curvature:
         """Return the Hessian of step k, (2 n_v + n_u, 2 n_v + n_u)."""
         x = self.path.states[k]
         u = self.system.inside(self.path.control[k], 2 * STEP)
-        n, m = 2 * self.system.model.n_v, len(u)
-        scale = np.concatenate(
-            [np.ones(n // 2), np.maximum(np.abs(x.p), 1), np.maximum(np.abs(u), 1)]
-        )
-        columns = []
-        for i in range(n + m):
-            sides = []
-            for sign in (1.0, -1.0):
-                d = np.zeros(n + m)
-                d[i] = sign * STEP * scale[i]
-                sides.append(self.gradient(k, self.system.shift(x, d[:n]), u + d[n:], after))
-            columns.append((sides[0] - sides[1]) / (2 * STEP * scale[i]))
-        H = np.stack(columns, axis=1)
-        return np.asarray(0.5 * (H + H.T))
+        n = 2 * self.system.model.n_v
+        scales = [np.ones(n // 2), np.maximum(np.abs(x.p), 1), np.maximum(np.abs(u), 1)]
+
+        def gradient(d: Array) -> Array:
+            return self.gradient(k, self.system.shift(x, d[:n]), u + d[n:], after)
+
+        return hessian(gradient, np.concatenate(scales))
 
     def of_the_end(self) -> Array:
         """Return the Hessian of the last state's cost, (2 n_v, 2 n_v)."""
-        x, n = self.path.states[-1], 2 * self.system.model.n_v
-        columns = []
-        for i in range(n):
-            sides = []
-            scale = 1.0 if i < n // 2 else max(1.0, float(np.abs(x.p).max()))
-            for sign in (1.0, -1.0):
-                d = np.zeros(n)
-                d[i] = sign * STEP * scale
-                y = self.system.shift(x, d)
-                term = self.cost.final(y.q, self.system.model.velocity(y))
-                sides.append(to_state(self.system, y, term[1], term[2])[0])
-            columns.append((sides[0] - sides[1]) / (2 * STEP * scale))
-        H = np.stack(columns, axis=1)
-        return np.asarray(0.5 * (H + H.T))
+        x, n_v = self.path.states[-1], self.system.model.n_v
+
+        def gradient(d: Array) -> Array:
+            y = self.system.shift(x, d)
+            term = self.cost.final(y.q, self.system.model.velocity(y))
+            return to_state(self.system, y, term[1], term[2])[0]
+
+        return hessian(gradient, np.repeat([1.0, max(1.0, float(np.abs(x.p).max()))], n_v))

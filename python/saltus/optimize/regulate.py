@@ -19,6 +19,7 @@ from saltus.optimize.system import (
     to_bounds,
     to_controls,
 )
+from saltus.runs.gradient import step_options
 from saltus.runs.moment import Moment
 from saltus.runs.trajectory import Trajectory
 
@@ -236,19 +237,11 @@ def path_of(motion: Trajectory | Plan) -> tuple[System, Rollout]:
         return motion._system, motion._path
     if not isinstance(motion, Trajectory):
         raise TypeError(f"motion is a {type(motion).__name__}; it is a Trajectory or a Plan")
-    if motion.model is None:
-        raise ModelError("the run has no model; saltus.load reads it where the file has one")
-    h = motion.options.h
-    steps = round((motion.t[-1] - motion.t[0]) / h)
-    if steps != len(motion.t) - 1:
-        raise ModelError(
-            f"the run has {len(motion.t)} rows of {steps} steps; feedback needs a row each, as "
-            "record_every=1 gives"
-        )
-    options = {"law": motion.options.law, "collisions": motion.options.collisions}
-    system = System(motion.model, h, options)
+    options = step_options(motion)
+    assert motion.model is not None  # step_options asks for one
+    system = System(motion.model, motion.options.h, options)
     control = to_controls(motion.model, motion.control[:-1])
-    states = [State(motion.t[k], motion.q[k], motion.p[k]) for k in range(steps + 1)]
+    states = [State(*row) for row in zip(motion.t, motion.q, motion.p, strict=True)]
     done = [dict[str, int]()]
     for x, u in zip(states, control, strict=False):
         system.advance(x, u)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from saltus._core import ImpactLaw, ModelError, State, Stepper
+from saltus.records.options import step_arguments
 from saltus.records.recording import Recording
 
 Array = npt.NDArray[np.float64]
@@ -60,50 +62,38 @@ def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
     )
 
 
-def check_run(run: Recording) -> None:
-    """Raise ModelError where a run's steps cannot be made again from its rows."""
+def step_options(run: Recording) -> dict[str, Any]:
+    """Return the options of a run's steps but h.
+
+    Raises
+    ------
+    ModelError
+        Where the steps cannot be made again from the rows.
+    """
+    if run.model is None:
+        raise ModelError("the run has no model; saltus.load reads it where the file has one")
     h = run.options.h
     steps = round((run.t[-1] - run.t[0]) / h)
     if steps != len(run.t) - 1:
         raise ModelError(
-            f"the run has {len(run.t)} rows of {steps} steps; its gradient needs a row each, as "
+            f"the run has {len(run.t)} rows of {steps} steps; derivatives need a row each, as "
             "record_every=1 gives"
         )
     if np.any(run.work["applied"]):
         raise ModelError(
             "forces were applied in the run, which it does not record; give them as actuators"
         )
-
-
-def stepper_of(run: Recording) -> Stepper:
-    """Return a stepper with the options of a run that records its steps."""
-    if run.model is None:
-        raise ModelError("the run has no model; saltus.load reads it where the file has one")
-    o = run.options
-    if o.law == ImpactLaw.custom:
+    if run.options.law == ImpactLaw.custom:
         raise ModelError("the run's impact law is a function, whose derivatives are not told")
-    return Stepper(
-        run.model,
-        h=o.h,
-        law=o.law,
-        collisions=o.collisions,
-        order=o.order,
-        max_iterations=o.max_iterations,
-        max_impacts=o.max_impacts,
-        max_halvings=o.max_halvings,
-        max_impulses=o.max_impulses,
-        rest=o.rest,
-        simultaneous=o.simultaneous,
-        strict=o.strict,
-        record=True,
-    )
+    return step_arguments(run.options)
 
 
 def gradient(run: Recording, q_hat: npt.ArrayLike, p_hat: npt.ArrayLike) -> RunGradient:
     """Return the gradient of a cost, see `Trajectory.gradient`."""
-    stepper = stepper_of(run)
+    options = step_options(run)
+    assert run.model is not None  # step_options asks for one
+    stepper = Stepper(run.model, h=run.options.h, record=True, **options)
     model = stepper.model
-    check_run(run)
     rows, n_v, n_u = len(run.t), model.n_v, run.control.shape[1]
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)

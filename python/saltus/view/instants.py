@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from saltus._core import Impact, Model, ModelError, State, StepError, Stepper
+from saltus.records.options import step_arguments
 from saltus.records.recording import Recording
 from saltus.records.tables import Array
 
@@ -171,21 +172,7 @@ class _Places:
         return state, self.model.kinetic_energy(state) + self.model.potential_energy(state.q)
 
     def _stepper(self, h: float) -> Stepper:
-        own = self.run.options
-        return Stepper(
-            self.model,
-            h,
-            own.law,
-            collisions=own.collisions,
-            strict=own.strict,
-            order=own.order,
-            max_iterations=own.max_iterations,
-            max_impacts=own.max_impacts,
-            max_halvings=own.max_halvings,
-            max_impulses=own.max_impulses,
-            rest=own.rest,
-            simultaneous=own.simultaneous,
-        )
+        return Stepper(self.model, h, **step_arguments(self.run.options))
 
     def _between(self, row: int, t: float) -> Array:
         """Return coordinates between two rows, by a constant velocity."""
