@@ -2,20 +2,21 @@
 
 #include <algorithm>
 
+#include "derivatives/selected.hpp"
 #include "saltus/collision/gap_motion.hpp"
 
 namespace saltus {
 namespace {
 
-/// Where a contact is, and how that moves.
-struct Placed3 {
+/// Where a contact's rows act, and along what.
+struct PlacedRows {
   Vec3 P;
-  std::array<Vec3, 3> d;
+  std::array<Vec3, 3> d;  ///< n, t0, t1
 };
 
-Placed3 place_rows(const ModelData& model, const Kinematics& kin, const Pair& pair, const Gap& gap,
-                   const FrameChoice& choice) {
-  Placed3 out;
+PlacedRows place_rows(const ModelData& model, const Kinematics& kin, const Pair& pair,
+                      const Gap& gap, const FrameChoice& choice) {
+  PlacedRows out;
   out.P = contact_point(gap);
   if (choice.at_a) out.P = gap.p_WA;
   out.d[0] = gap.n_W;
@@ -51,10 +52,7 @@ Screw screw_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, con
 }
 
 bool turns_below(const Tree& tree, int j, int k) {
-  if (j == k || !tree.is_ancestor(j, k)) return false;
-  const bool is_one_ball = tree.joint[j].is_ball() && tree.joint[k].is_ball() &&
-                           j - tree.joint[j].axis == k - tree.joint[k].axis;
-  return !is_one_ball;
+  return j != k && tree.is_ancestor(j, k) && !are_of_one_ball(tree, j, k);
 }
 
 void set_stop(const ModelData& model, const Pair& pair, FrameDerivative& out) {
@@ -70,11 +68,7 @@ void set_frame(const ModelData& model, const Kinematics& kin, const Pair& pair,
   const Tree& tree = model.tree;
   for (VecX& each : out.row) each.setZero(tree.n_v);
   if (pair.is_stop()) return set_stop(model, pair, out);
-  out.velocities.clear();
-  for (const ChainJoint& k : pair.chain) out.velocities.push_back(tree.drive[k.joint].velocity);
-  std::sort(out.velocities.begin(), out.velocities.end());
-  out.velocities.erase(std::unique(out.velocities.begin(), out.velocities.end()),
-                       out.velocities.end());
+  list_velocities(tree, pair, out.velocities);
   const auto n = static_cast<Eigen::Index>(out.velocities.size());
   for (MatX& each : out.H) each.setZero(n, n);
   const auto index = [&](const Drive& drive) {
@@ -83,7 +77,7 @@ void set_frame(const ModelData& model, const Kinematics& kin, const Pair& pair,
   };
   const Gap gap = pair_gap(tree, kin, pair);
   const GapMotion motion = gap_motion(gap);
-  const Placed3 at = place_rows(model, kin, pair, gap, choice);
+  const PlacedRows at = place_rows(model, kin, pair, gap, choice);
   for (const ChainJoint& joint_j : pair.chain) {
     const Screw j = screw_of(tree, kin, joint_j, at.P);
     const Screw center = screw_of(tree, kin, joint_j, gap.center_W);
@@ -127,22 +121,12 @@ void set_joint_frame(const ModelData& model, int velocity, FrameDerivative& out)
 }
 
 void add_row_change(const FrameDerivative& frame, int i, const VecX& dq, double factor, VecX& to) {
-  const auto n = static_cast<Eigen::Index>(frame.velocities.size());
-  for (Eigen::Index r = 0; r < n; ++r) {
-    double sum = 0;
-    for (Eigen::Index c = 0; c < n; ++c) sum += frame.H[i](r, c) * dq[frame.velocities[c]];
-    to[frame.velocities[r]] += factor * sum;
-  }
+  add_selected(frame.H[i], frame.velocities, dq, factor, to);
 }
 
 void add_row_covector(const FrameDerivative& frame, int i, const VecX& row_hat, double factor,
                       VecX& q) {
-  const auto n = static_cast<Eigen::Index>(frame.velocities.size());
-  for (Eigen::Index c = 0; c < n; ++c) {
-    double sum = 0;
-    for (Eigen::Index r = 0; r < n; ++r) sum += frame.H[i](r, c) * row_hat[frame.velocities[r]];
-    q[frame.velocities[c]] += factor * sum;
-  }
+  add_selected(frame.H[i].transpose(), frame.velocities, row_hat, factor, q);
 }
 
 }  // namespace saltus

@@ -96,12 +96,7 @@ void add_contact(const ModelData& model, const Places& places, const TapeRow& ro
     N(at + 1, at + 1) = N(at + 2, at + 2) = 1;
     return;
   }
-  const double speed = slip.value.norm();
-  const Vec2 d = slip.value / speed;
-  K.block<2, 2>(at + 1, at + 1).setIdentity();
-  K.block<2, 1>(at + 1, at) = row.friction * d;
-  N.block<2, 2>(at + 1, at + 1) =
-      row.friction * row.P[0] / speed * (Eigen::Matrix2d::Identity() - d * d.transpose());
+  add_sliding(row.friction, row.P[0], slip.value, at, N, K);
 }
 
 void list_rows(const TapeArc& told, HeldArc& held) {
@@ -163,7 +158,9 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
     if (row.joint >= 0) {
       set_joint_frame(model, row.joint, frame);
     } else {
-      set_frame(model, places.start, pair_of(model, row.pair), choice_of(row, false), frame);
+      const Pair pair = pair_of(model, row.pair);
+      const bool at_a = pair.on_b.joint < 0;  // friction_point
+      set_frame(model, places.start, pair, choice_of(row, at_a), frame);
     }
     add_contact(model, places, row, out.arc, at, held, by_g, by_P);
     at += rates_of(row);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "derivatives/selected.hpp"
+
 namespace saltus {
 
 Pair pair_of(const ModelData& model, int number) {
@@ -33,12 +35,7 @@ void set_gap_derivative(const ModelData& model, const Kinematics& kin, const Pai
 }
 
 void add_gradient_change(const GapDerivative& gap, const VecX& dq, double factor, VecX& dn) {
-  const auto m = static_cast<Eigen::Index>(gap.velocities.size());
-  for (Eigen::Index i = 0; i < m; ++i) {
-    double sum = 0;
-    for (Eigen::Index j = 0; j < m; ++j) sum += gap.H(i, j) * dq[gap.velocities[j]];
-    dn[gap.velocities[i]] += factor * sum;
-  }
+  add_selected(gap.H, gap.velocities, dq, factor, dn);
   for (const int c : gap.balls) {
     const Vec3 eta = dq.segment<3>(c), n = gap.n.segment<3>(c);
     dn.segment<3>(c) += factor / 2 * eta.cross(n);
@@ -46,12 +43,7 @@ void add_gradient_change(const GapDerivative& gap, const VecX& dq, double factor
 }
 
 void add_gradient_covector(const GapDerivative& gap, const VecX& n_hat, double factor, VecX& q) {
-  const auto m = static_cast<Eigen::Index>(gap.velocities.size());
-  for (Eigen::Index i = 0; i < m; ++i) {
-    double sum = 0;
-    for (Eigen::Index j = 0; j < m; ++j) sum += gap.H(i, j) * n_hat[gap.velocities[j]];
-    q[gap.velocities[i]] += factor * sum;
-  }
+  add_selected(gap.H, gap.velocities, n_hat, factor, q);  // H is symmetric
   for (const int c : gap.balls) {
     const Vec3 n = gap.n.segment<3>(c), y = n_hat.segment<3>(c);
     q.segment<3>(c) += factor / 2 * n.cross(y);

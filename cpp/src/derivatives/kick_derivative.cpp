@@ -70,13 +70,7 @@ void add_equations(const KickContact& contact, Eigen::Index at, const Vec3& u, E
     N(at + 1, at + 1) = N(at + 2, at + 2) = 1;
     return;
   }
-  const Eigen::Vector2d v = u.tail<2>();
-  const double speed = v.norm();
-  const Eigen::Vector2d d = v / speed;
-  const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - d * d.transpose();
-  K.block<2, 2>(at + 1, at + 1).setIdentity();
-  K.block<2, 1>(at + 1, at) = contact.friction * d;
-  N.block<2, 2>(at + 1, at + 1) = contact.friction * contact.P[0] / speed * across;
+  add_sliding(contact.friction, contact.P[0], u.tail<2>(), at, N, K);
 }
 
 Eigen::Index extras_of(const std::vector<KickContact>& contacts) {
@@ -117,6 +111,16 @@ void set_system(const ModelData& model, KickDerivative& out) {
 KickContact::Mode mode_of(const Vec3& P, double friction) {
   if (!(friction > 0)) return Mode::frictionless;
   return P.tail<2>().norm() < friction * P[0] * (1 - 1e-9) ? Mode::sticks : Mode::slides;
+}
+
+void add_sliding(double friction, double P_n, const Eigen::Vector2d& g_t, Eigen::Index at, MatX& N,
+                 MatX& K) {
+  const double speed = g_t.norm();
+  const Eigen::Vector2d d = g_t / speed;
+  const Eigen::Matrix2d across = Eigen::Matrix2d::Identity() - d * d.transpose();
+  K.block<2, 2>(at + 1, at + 1).setIdentity();
+  K.block<2, 1>(at + 1, at) = friction * d;
+  N.block<2, 2>(at + 1, at + 1) = friction * P_n / speed * across;
 }
 
 void set_kick(const ModelData& model, const VecX& q, ArcDerivative& motion, KickDerivative& out) {

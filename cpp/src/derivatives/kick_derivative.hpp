@@ -47,6 +47,10 @@ struct KickDerivative {
 /// A contact's mode, by its impulse.
 KickContact::Mode mode_of(const Vec3& P, double friction);
 
+/// Of a contact that slides, whose first row is `at`: P_t = -mu P_n g_t / |g_t|, as N dg + K dP.
+void add_sliding(double friction, double P_n, const Eigen::Vector2d& g_t, Eigen::Index at, MatX& N,
+                 MatX& K);
+
 /// From contacts at q, whose frames are placed here. `motion` is of no duration, at (q, v+).
 void set_kick(const ModelData& model, const VecX& q, ArcDerivative& motion, KickDerivative& out);
 

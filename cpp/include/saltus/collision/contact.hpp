@@ -46,7 +46,11 @@ SALTUS_EXPORT void add_gap_gradient(const Tree& tree, const Kinematics& kin, con
 SALTUS_EXPORT void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                    const Gap& gap, Eigen::Ref<MatX> phi_qq);
 
-/// The same among the velocities that move the pair, in increasing order: (k, k) and (k).
+/// The velocities that move the pair, in increasing order.
+SALTUS_EXPORT void list_velocities(const Tree& tree, const Pair& pair,
+                                   std::vector<int>& velocities);
+
+/// The Hessian among these: (k, k) and (k).
 SALTUS_EXPORT void set_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                    const Gap& gap, MatX& phi_qq, std::vector<int>& velocities);
 

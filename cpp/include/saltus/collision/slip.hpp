@@ -26,6 +26,12 @@ SALTUS_EXPORT Tangents tangents(const Vec3& n_W, int axis);
 /// Where the two touch: halfway between the witnesses, which are one point where phi = 0.
 inline Vec3 contact_point(const Gap& gap) { return (gap.p_WA + gap.p_WB) / 2; }
 
+/// Where friction acts: where the two touch. While they are apart it is on the surface of a, if b
+/// does not move: so that the arm of what lands is that which it has when it has landed.
+inline Vec3 friction_point(const Gap& gap, const Pair& pair) {
+  return pair.on_b.joint < 0 ? gap.p_WA : contact_point(gap);
+}
+
 /// Adds the gradient of the motion along d_W, at P_W, to `row` (n_v), through the drives of mimic
 /// joints.
 SALTUS_EXPORT void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,

@@ -82,4 +82,10 @@ SALTUS_EXPORT int add_ball(Tree& tree, int parent, const Pose& X_PJ);
 /// that planar motion stays planar to the last bit.
 SALTUS_EXPORT Mat3 rotation_z_to(const Vec3& axis);
 
+/// Joints of one ball: the order in which they turn is none.
+inline bool are_of_one_ball(const Tree& tree, int i, int j) {
+  return tree.joint[i].is_ball() && tree.joint[j].is_ball() &&
+         i - tree.joint[i].axis == j - tree.joint[j].axis;
+}
+
 }  // namespace saltus

@@ -30,12 +30,6 @@ Vec3 velocity_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, c
   return k.sign * (angular(S).cross(P) + linear(S));
 }
 
-/// Joints of one ball: the order in which they turn is none.
-bool are_of_one_ball(const Tree& tree, int i, int l) {
-  return tree.joint[i].is_ball() && tree.joint[l].is_ball() &&
-         i - tree.joint[i].axis == l - tree.joint[l].axis;
-}
-
 /// Of a stop: points and normal are those of the joint's frame, for pictures.
 Gap stop_gap(const Tree& tree, const Kinematics& kin, const Pair& pair) {
   const int joint = pair.on_a.joint;
@@ -149,12 +143,16 @@ void add_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, 
   });
 }
 
-void set_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
-                     MatX& phi_qq, std::vector<int>& velocities) {
+void list_velocities(const Tree& tree, const Pair& pair, std::vector<int>& velocities) {
   velocities.clear();
   for (const ChainJoint& k : pair.chain) velocities.push_back(tree.drive[k.joint].velocity);
   std::sort(velocities.begin(), velocities.end());
   velocities.erase(std::unique(velocities.begin(), velocities.end()), velocities.end());
+}
+
+void set_gap_hessian(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
+                     MatX& phi_qq, std::vector<int>& velocities) {
+  list_velocities(tree, pair, velocities);
   const auto n = static_cast<Eigen::Index>(velocities.size());
   phi_qq.setZero(n, n);
   if (pair.is_stop()) return;

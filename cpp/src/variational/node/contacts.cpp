@@ -42,16 +42,17 @@ Gap measured_gap(const Scene& scene, double near, int slot, Node& node) {
   const Pair& pair = node.pool[slot];
   const Gap g = pair_gap(scene.model.tree, node.kin, pair);
   const double distance = pair.kind == PairKind::crossing ? line_distance(pair, g) : g.phi;
-  if (distance > near) node.clear_pairs.note(slot, pair, distance);
+  if (distance > near) node.clearances.note(Clearances::pairs, slot, pair, distance);
   return g;
 }
 
 bool are_edges_near(const Scene& scene, double near, int slot, Node& node) {
   const Pair& pair = node.pool[slot];
-  if (node.clear_pairs.least(slot, pair) > near) return false;
-  if (node.clear_pairs.most(slot, pair) <= near) return true;
+  if (node.clearances.least(Clearances::pairs, slot, pair) > near) return false;
+  if (node.clearances.most(Clearances::pairs, slot, pair) <= near) return true;
   const double distance = edge_distance(scene.model.tree, node.kin, pair);
-  if (std::holds_alternative<Crossing>(pair.kind)) node.clear_pairs.note(slot, pair, distance);
+  if (std::holds_alternative<Crossing>(pair.kind))
+    node.clearances.note(Clearances::pairs, slot, pair, distance);
   return distance <= near;
 }
 
@@ -111,7 +112,7 @@ void add_if_touching(const Scene& scene, double speed, int slot, Node& node) {
 void set_tangents(const Scene& scene, const Gap& gap, const Pair& pair, const Node& node,
                   VecX& dense, Contact& c) {
   const Tangents t = tangents(gap.n_W, tangent_axis(gap.n_W));
-  const Vec3 P = contact_point(gap);
+  const Vec3 P = friction_point(gap, pair);
   for (int k = 0; k < 2; ++k) {
     c.t_W[k] = k == 0 ? t.t0 : t.t1;
     add_motion_gradient(scene.model.tree, node.kin, pair, P, c.t_W[k], dense);
@@ -177,8 +178,7 @@ void merge_witnesses(const FirstOf& first, Node& node) {
 /// The lists by slot grow with the pool.
 void fit(Node& node) {
   const auto slots = static_cast<std::size_t>(node.pool.size());
-  node.clear_pairs.fit(node.pool.size());
-  node.clear_solids.fit(node.pool.solids());
+  node.clearances.fit(node.pool.size(), node.pool.solids());
   if (node.contact_of.size() >= slots) return;
   node.contact_of.resize(slots, -1);
   node.sunk.resize(slots, 0);
@@ -242,10 +242,10 @@ bool is_solid_near(const Scene& scene, double speed, int slot, Node& node) {
   const Pair& solid = *node.pool.solid(slot);
   const double near = solid.touch + nearly(scene.options, speed);
   const int number = node.pool.solid_number(slot);
-  if (node.clear_solids.least(number, solid) > near) return false;
-  if (node.clear_solids.most(number, solid) <= near) return true;
+  if (node.clearances.least(Clearances::solids, number, solid) > near) return false;
+  if (node.clearances.most(Clearances::solids, number, solid) <= near) return true;
   const double phi = pair_gap(scene.model.tree, node.kin, solid).phi;
-  node.clear_solids.note(number, solid, phi);
+  node.clearances.note(Clearances::solids, number, solid, phi);
   return phi <= near;
 }
 
@@ -280,7 +280,8 @@ bool find_contacts(const Scene& scene, Node& node) {
       first = {node.touching, node.silent.size()};
     }
     const Pair& pair = node.pool[slot];
-    if (!is_near || node.clear_pairs.least(slot, pair) > pair.touch + near) continue;
+    if (!is_near || node.clearances.least(Clearances::pairs, slot, pair) > pair.touch + near)
+      continue;
     add_if_touching(scene, speed, slot_at(scene, number, node), node);
   }
   merge_witnesses(first, node);
