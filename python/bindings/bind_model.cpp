@@ -214,6 +214,20 @@ void bind_copies(py::class_<Model>& c) {
    }).def("__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"));
 }
 
+// New ones belong to the caller; of `out` pybind11 finds the object that it is.
+LagrangianPartials* lagrangian_into(const Model& model, const Coordinates& q, const Velocities& v,
+                                    LagrangianPartials* out) {
+  if (out == nullptr) {
+    return new LagrangianPartials(model.lagrangian(to_vector(q, model), to_vector(v, model)));
+  }
+  if (out->L_v.size() != model.n_v()) {  // its arrays may be seen, so they stay where they are
+    throw ModelError("out has partials of n = " + std::to_string(out->L_v.size()) +
+                     "; this model has n_v = " + std::to_string(model.n_v()));
+  }
+  model.lagrangian(to_vector(q, model), to_vector(v, model), *out);
+  return out;
+}
+
 }  // namespace
 
 void bind_model(py::module_& m) {
@@ -246,10 +260,8 @@ void bind_model(py::module_& m) {
       .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))
       .def(
           "lagrangian",
-          [](const Model& model, const Coordinates& q, const Velocities& v) {
-            return model.lagrangian(to_vector(q, model), to_vector(v, model));
-          },
-          docs::model_lagrangian, py::arg("q"), py::arg("v"))
+          &lagrangian_into, docs::model_lagrangian, py::arg("q"), py::arg("v"), py::kw_only(),
+          py::arg("out") = py::none(), py::return_value_policy::take_ownership)
       .def(
           "mass_matrix",
           [](const Model& model, const Coordinates& q) {

@@ -181,15 +181,19 @@ q : array_like, shape (n_q,), or mapping of names to values
     [rad | m]
 v : array_like, shape (n_v,), or mapping of names to values
     [rad/s | m/s]
+out : LagrangianPartials, optional
+    One of an earlier call, to be overwritten: what reads its arrays sees the new values. Of large
+    models this saves most of the time.
 
 Returns
 -------
 LagrangianPartials
+    `out` where it is given.
 
 Raises
 ------
 ModelError
-    On an unknown name, a wrong shape, or a value that is not finite.
+    On an unknown name, a wrong shape, or a value that is not finite; where `out` is of another size.
 )";
 
 constexpr auto model_mass_matrix = R"(M(q) = L_vv.

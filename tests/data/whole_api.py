@@ -59,6 +59,7 @@ def look_at(model: saltus.Model) -> None:
     assert len(pairs) == model.n_pairs
     frames: saltus.Frames = model.at(model.neutral())
     partials: saltus.LagrangianPartials = model.lagrangian(model.neutral(), np.zeros(model.n_v))
+    partials = model.lagrangian(model.neutral(), np.zeros(model.n_v), out=partials)
     gaps: saltus.Gaps = model.gaps(None)
     state: saltus.State = model.state()
     energy: saltus.Energies = saltus.energies(model, state, 0.01)

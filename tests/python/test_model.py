@@ -92,6 +92,26 @@ def test_wrong_coordinates_are_explained(q, message):
         model.lagrangian(q, np.zeros(6))
 
 
+def test_partials_are_written_into_those_of_an_earlier_call():
+    model = chain(4)
+    out = model.lagrangian(*random_state(model))
+    L_qq, before = out.L_qq, out.L_qq.copy()
+    q, v = np.full(model.n_q, 0.3), np.full(model.n_v, -0.7)
+    assert model.lagrangian(q, v, out=out) is out
+    fresh = model.lagrangian(q, v)
+    assert out.value == fresh.value
+    for name in ("L_q", "L_v", "L_qq", "L_vq", "L_vv"):
+        np.testing.assert_array_equal(getattr(out, name), getattr(fresh, name))
+    np.testing.assert_array_equal(L_qq, fresh.L_qq)  # a view of the same array
+    assert not np.array_equal(L_qq, before)
+    for wrong in ({"q": np.full(model.n_q, np.nan), "v": v}, {"q": q, "v": v[1:]}):
+        with pytest.raises(saltus.ModelError):
+            model.lagrangian(**wrong, out=out)
+        np.testing.assert_array_equal(out.L_qq, fresh.L_qq)
+    with pytest.raises(saltus.ModelError, match="out has partials of n = 4; this model has n_v = 6"):
+        cradle().lagrangian(np.zeros(6), np.zeros(6), out=out)
+
+
 def test_errors_carry_the_culprit():
     with pytest.raises(saltus.ModelError) as error:
         cradle().state({"elbow": 1})

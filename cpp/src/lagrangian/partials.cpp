@@ -66,8 +66,8 @@ void set_first_partials(const Tree& tree, const PackedTree& t, const VecRef& q, 
 
 }  // namespace
 
-LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q,
-                              const VecRef& v) {
+void lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v,
+                LagrangianPartials& L) {
   Packed w(t);
   SecondPartials rows(t);
   set_first_partials(tree, t, q, v, w);
@@ -77,7 +77,8 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   multiply_pairs(t, w, rows);
 
   const int n = tree.n_v;
-  LagrangianPartials L{0, VecX(n), VecX(n), MatX::Zero(n, n), MatX::Zero(n, n), MatX::Zero(n, n)};
+  for (VecX* x : {&L.L_q, &L.L_v}) x->resize(n);
+  for (MatX* x : {&L.L_qq, &L.L_vq, &L.L_vv}) x->setZero(n, n);
   gather(tree, t, w.first, 0, L.L_v);
   gather(tree, t, w.first, 1, L.L_q);
   add_pairs(tree, t, rows, L);
@@ -85,6 +86,12 @@ LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRe
   add_coupled_pairs(w, L.L_qq);
   add_curve_pairs(t, w, L.L_qq);
   L.value = 0.5 * v.dot(L.L_v) - V;
+}
+
+LagrangianPartials lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q,
+                              const VecRef& v) {
+  LagrangianPartials L;
+  lagrangian(tree, t, q, v, L);
   return L;
 }
 

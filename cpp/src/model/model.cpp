@@ -179,9 +179,15 @@ VecX Model::velocity(const State& state) const {
 }
 
 LagrangianPartials Model::lagrangian(const VecRef& q, const VecRef& v) const {
+  LagrangianPartials out;
+  lagrangian(q, v, out);
+  return out;
+}
+
+void Model::lagrangian(const VecRef& q, const VecRef& v, LagrangianPartials& out) const {
   const VecX unit_q = checked_q(q, "q");
   check_vector(v, n_v(), "v", "velocities");
-  return saltus::lagrangian(data_->tree, data_->packed, unit_q, v);
+  saltus::lagrangian(data_->tree, data_->packed, unit_q, v, out);
 }
 
 MatX Model::mass_matrix(const VecRef& q) const {

@@ -23,6 +23,11 @@ struct LagrangianPartials {
 SALTUS_EXPORT LagrangianPartials lagrangian(const Tree& tree, const PackedTree& packed,
                                             const VecRef& q, const VecRef& v);
 
+/// The same into `L`, whose arrays are used again: of a large model most of the time is that of
+/// getting and touching new memory.
+SALTUS_EXPORT void lagrangian(const Tree& tree, const PackedTree& packed, const VecRef& q,
+                              const VecRef& v, LagrangianPartials& L);
+
 /// p = L_v alone (n_v), in O(n): the same bits as above.
 SALTUS_EXPORT VecX momenta(const Tree& tree, const PackedTree& packed, const VecRef& q,
                            const VecRef& v);

@@ -191,6 +191,8 @@ class SALTUS_EXPORT Model {
   VecX velocity(const State& state) const;  ///< v = M(q)^-1 p, (n_v)
   /// L and its partials, see LagrangianPartials.
   LagrangianPartials lagrangian(const VecRef& q, const VecRef& v) const;
+  /// The same into `out`, whose arrays are used again.
+  void lagrangian(const VecRef& q, const VecRef& v, LagrangianPartials& out) const;
   /// M(q), (n_v, n_v).
   MatX mass_matrix(const VecRef& q) const;
   /// @throws ModelError where the dense result would not fit into 1 GiB.
