@@ -14,7 +14,7 @@ using testing_scene::random_coordinates;
 using testing_world::random_world;
 using testing_world::World;
 
-/// No gap changes by more than its shapes move, there and back.
+/// No gap changes by more than its shapes move.
 TEST(MotionBounds, NoGapChangesByMoreThanItsShapesMove) {
   Random random(7);
   for (int k = 0; k < 30; ++k) {
@@ -24,7 +24,7 @@ TEST(MotionBounds, NoGapChangesByMoreThanItsShapesMove) {
     const VecX dq = random.numbers(world.tree.n_v, 0.1);
     Kinematics kin(world.tree), other(world.tree);
     set_configuration(world.tree, q, kin);
-    bound_motion(world.tree, kin, dq, bp);
+    find_candidates(world.tree, world.shapes, world.table, kin, dq, 0, bp);
     for (const double s : {0.3, 1.0}) {
       set_configuration(world.tree, moved(world.tree, q, s, dq), other);
       for (const Pair& pair : world.pairs) {
@@ -33,14 +33,6 @@ TEST(MotionBounds, NoGapChangesByMoreThanItsShapesMove) {
             pair_gap(world.tree, other, pair).phi - pair_gap(world.tree, kin, pair).phi;
         EXPECT_LE(std::abs(change), bp.motion[pair.a] + bp.motion[pair.b] + 1e-12);
       }
-    }
-    set_configuration(world.tree, moved(world.tree, q, 1, dq), other);
-    bound_motion(world.tree, other, -dq, bp);
-    for (const Pair& pair : world.pairs) {
-      if (pair.kind == PairKind::crossing) continue;
-      const double change =
-          pair_gap(world.tree, other, pair).phi - pair_gap(world.tree, kin, pair).phi;
-      EXPECT_LE(std::abs(change), bp.motion[pair.a] + bp.motion[pair.b] + 1e-12);
     }
   }
 }

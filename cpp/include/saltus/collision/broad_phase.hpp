@@ -38,7 +38,7 @@ struct BroadPhase {
   std::vector<Vec3> normal;    ///< (shapes) outward, of half-spaces; likewise
   std::vector<double> moved;   ///< (n) [m] the most a joint frame's origin can move; likewise
   std::vector<double> turned;  ///< (n) [rad] the most it can turn; likewise
-  std::vector<double> motion;  ///< (shapes) [m] the most a point of it can move; by bound_motion
+  std::vector<double> motion;  ///< (shapes) [m] the most a point of it can move; likewise
 
   // What is kept between calls, written where a ball has left the one that it was gathered with.
   std::vector<Vec3> held_center;   ///< (shapes) [m] of the balls with their skins
@@ -63,12 +63,6 @@ struct BroadPhase {
 SALTUS_EXPORT void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
                                    const PairTable& pairs, const Kinematics& kin, const VecRef& dq,
                                    double margin, BroadPhase& bp);
-
-/// Writes bp.motion: how far any point of a shape can move along the chord from q by dq (n_v),
-/// which is as far as on the way back. Half-spaces that move are without bound. Needs
-/// set_configuration at q.
-SALTUS_EXPORT void bound_motion(const Tree& tree, const Kinematics& kin, const VecRef& dq,
-                                BroadPhase& bp);
 
 /// Forgets what is kept between calls.
 SALTUS_EXPORT void start_anew(BroadPhase& bp);

@@ -81,12 +81,13 @@ void place_balls(const Tree& tree, const Kinematics& kin, const VecRef& dq, doub
     const Vec3 c_W = turned ? Vec3(kin.joint[j].R * ball.p_JG) : ball.p_JG;
     bp.center[i] = j < 0 ? c_W : Vec3(kin.origin[tree.root[j]] + kin.joint[j].p + c_W);
     const double motion = j < 0 ? 0 : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W);
+    bp.motion[i] = j < 0 ? 0 : motion + std::fmin(bp.turned[j], 2) * ball.size;
     // half the margin a ball: margin a pair
     const double radius = ball.size + motion + margin / 2;
     bp.reach[i] = radius + rounding * (bp.center[i].cwiseAbs().maxCoeff() + radius);
     if (!std::isfinite(bp.center[i].sum() + bp.reach[i])) {  // q or dq is not: met by all
       bp.center[i].setZero();
-      bp.reach[i] = std::numeric_limits<double>::infinity();
+      bp.reach[i] = bp.motion[i] = std::numeric_limits<double>::infinity();
     }
   }
 }
@@ -158,6 +159,7 @@ void place_planes(const Tree& tree, const std::vector<PlacedShape>& shapes, cons
     bp.center[i] = X_WG.p;
     bp.normal[i] = X_WG.R.col(2);
     bp.reach[i] = margin / 2 + rounding * X_WG.p.cwiseAbs().maxCoeff();
+    bp.motion[i] = shapes[i].joint < 0 ? 0 : plane;  // far out it moves without bound
   }
 }
 
@@ -208,20 +210,6 @@ void find_candidates(const Tree& tree, const std::vector<PlacedShape>& shapes,
     const auto [first, count] = near.numbers;
     for (int k = 0; k < count; ++k) bp.candidates.push_back(first + k);
   }
-}
-
-void bound_motion(const Tree& tree, const Kinematics& kin, const VecRef& dq, BroadPhase& bp) {
-  bound_joints(tree, kin, dq, bp);
-  for (const int i : bp.bounded) {
-    const BroadPhase::Ball& ball = bp.ball[i];
-    const int j = ball.joint;
-    const Vec3 c_W = j < 0 ? ball.p_JG : Vec3(kin.joint[j].R * ball.p_JG);
-    bp.motion[i] = j < 0 ? 0
-                         : bp.moved[j] + sway(tree, kin, dq, bp, j, c_W) +
-                               std::fmin(bp.turned[j], 2) * ball.size;
-    if (!std::isfinite(bp.motion[i])) bp.motion[i] = std::numeric_limits<double>::infinity();
-  }
-  for (const int i : bp.unbounded) bp.motion[i] = bp.ball[i].joint < 0 ? 0 : plane;
 }
 
 void start_anew(BroadPhase& bp) {

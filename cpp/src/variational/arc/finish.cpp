@@ -9,11 +9,6 @@
 namespace saltus {
 namespace {
 
-/// What a row was frozen to is the same at the arc's end.
-bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
-  return arc.tau * largest(scene.trees, c.n, arc.v) <= 10 * row.pair->touch;
-}
-
 /// What the row held, as a contact at the node: its own where the node has it, and one with the
 /// plane or edge that it was held by where not.
 /// @return nullptr where edges have come to be parallel
@@ -22,6 +17,7 @@ Contact* held_contact(const Scene& scene, const Row& row, const Arc& arc, std::s
   const int contact = node.contact_at(row.slot);
   if (contact >= 0) {
     Contact& c = node.contacts[contact];
+    // what it was frozen to is the same where nothing moves
     if (!row.is_frozen || is_still(scene, c, row, arc)) return &c;
   }
   const Gap g = pair_gap(scene.model.tree, node.kin, row.watched());
@@ -63,8 +59,8 @@ void list_contacts(const Scene& scene, const ArcWork& work, Node& node, HalfKick
     const Row& row = rows.row[i];
     Contact* c = nullptr;
     if (row.is_joint()) {
-      c = &node.dry[-1 - row.contact];
-      c->bound = rows.tau / 2 * node.dry_force[-1 - row.contact];
+      c = &node.dry[row.dry];
+      c->bound = rows.tau / 2 * node.dry_force[row.dry];
       c->slot = row.slot;
     } else if (row.is_pressed()) {
       c = held_contact(scene, row, work.arc, static_cast<std::size_t>(i), node, kick);
@@ -245,13 +241,13 @@ void remember(const HalfKick& kick, Memory& memory) {
   }
 }
 
-bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfKick& kick) {
+bool finish(const Scene& scene, double t, const ArcWork& work, const std::vector<double>& motion,
+            Node& node, HalfKick& kick) {
   kick.impulses.clear();
   kick.contacts.clear();
   kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
-  node.dq = work.arc.tau * work.arc.v;
-  move_node(scene, t, work.arc.q_end, work.arc.p_end, node.dq, node);
+  move_node(scene, t, work.arc.q_end, work.arc.p_end, motion, node);
   if (node.loops.some && !set_velocity_at_node(scene, node)) return false;
   if (!find_contacts(scene, node)) return false;
   if (work.rows.count == 0) return true;

@@ -48,7 +48,9 @@ struct HalfKick {
 void remember(const HalfKick& kick, Memory& memory);
 
 /// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts.
+/// @param motion (shapes) as move_node takes it
 /// @return false where the mass matrix is singular.
-bool finish(const Scene& scene, double t, const ArcWork& work, Node& node, HalfKick& kick);
+bool finish(const Scene& scene, double t, const ArcWork& work, const std::vector<double>& motion,
+            Node& node, HalfKick& kick);
 
 }  // namespace saltus

@@ -8,7 +8,7 @@ void remember(const Arc& arc, double t, const Rows& rows, Memory& memory) {
   for (const int i : rows.active) {
     const Row& row = rows.row[i];
     if (row.is_joint()) {
-      const auto k = static_cast<std::size_t>(-1 - row.contact);
+      const auto k = static_cast<std::size_t>(row.dry);
       if (memory.dry.size() <= k) memory.dry.resize(k + 1);
       memory.dry[k] = {row.p, arc.tau, memory.arcs, row.own};
       continue;

@@ -17,14 +17,6 @@ double take_rate(const Scene& scene, const Contact& c, int k, const VecX& v, Row
   return dot(scene.trees, row.rate[k], v);
 }
 
-/// The bodies move so little that rates are linear in v; those over the arc would be rounding of
-/// positions, which what rests for long must not follow.
-bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
-  if (row.pair->is_stop()) return false;
-  const double little = 10 * row.pair->touch / arc.tau;
-  return largest(scene.trees, c.n, arc.v) <= little;
-}
-
 /// Tangential rates in the middle of the arc, where rolling has its slip: T v.
 void set_sliding(const Scene& scene, const Contact& c, Row& row, Vec3& u, ArcWork& work) {
   const Tree& tree = scene.model.tree;
@@ -84,7 +76,8 @@ void set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
     const Gap g = pair_gap_at_end(model, row.watched(), s);
     add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
     const double linear = take_rate(scene, c, 0, work.arc.v, row, rows);
-    const bool still = is_still(scene, c, row, work.arc);
+    // then rates over the arc would be rounding of positions, which what rests must not follow
+    const bool still = !row.pair->is_stop() && is_still(scene, c, row, work.arc);
     u[0] = still ? linear + (c.phi - row.target) / tau : (g.phi - row.target) / tau;
     if (slides && row.is_point) set_chord(scene, c, g, still, row, u, work);
   }

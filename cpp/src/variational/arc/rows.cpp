@@ -41,8 +41,8 @@ void remind(const ImpulseMemory& before, double tau, Row& row) {
 void add_row(const Scene& scene, const Contact& c, const Node& node, Rows& rows) {
   Row& row = next_row(rows);
   const int contact = node.contact_at(c.slot);
-  row.ahead = contact < 0 ? &c : nullptr;
-  row.contact = std::max(contact, 0);
+  row.contact = &c;
+  row.dry = -1;
   if (contact >= 0) rows.of_contact[contact] = rows.count - 1;
   row.slot = c.slot;
   row.pair = &node.pool[c.slot];
@@ -57,8 +57,8 @@ void add_row(const Scene& scene, const Contact& c, const Node& node, Rows& rows)
 
 void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {
   Row& row = next_row(rows);
-  row.contact = -1 - dry;
-  row.ahead = nullptr;
+  row.contact = nullptr;
+  row.dry = dry;
   row.slot = -2 - dry;
   row.pair = nullptr;
   row.is_active = row.is_frozen = row.is_point = row.slides = false;
@@ -105,6 +105,10 @@ Rows::Rows(const Scene& scene) : neighbours(scene) {
     ahead.push_back(fresh_contact(scene));
   }
   for (VecX* x : {&momentum, &size, &dense, &column}) x->setZero(scene.model.tree.n_v);
+}
+
+bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {
+  return arc.tau * largest(scene.trees, c.n, arc.v) <= 10 * row.pair->touch;
 }
 
 int count_pressed(const Rows& rows) {

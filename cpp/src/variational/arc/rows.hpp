@@ -31,12 +31,12 @@
 namespace saltus {
 
 struct Row {
-  int contact = -1;  ///< its index in node.contacts, at the arc's start; -1 - k: node.dry[k]
-  const Contact* ahead = nullptr;  ///< of a pair that is open at the arc's start: what it is there
-  int slot = -1;                   ///< of its pair in the pool; -2 - k of dry[k]
-  const Pair* pair = nullptr;      ///< likewise; none of a joint
-  bool is_frozen = false;          ///< held in a plane of b: `frozen` is the pair
-  bool is_point = false;           ///< and there at a point of a: a corner, or one of a rim
+  const Contact* contact = nullptr;  ///< at the arc's start, of the node or of `ahead`; or
+  int dry = -1;                      ///< index in node.dry
+  int slot = -1;                     ///< of its pair in the pool; -2 - k of dry[k]
+  const Pair* pair = nullptr;        ///< likewise; none of a joint
+  bool is_frozen = false;            ///< held in a plane of b: `frozen` is the pair
+  bool is_point = false;             ///< and there at a point of a: a corner, or one of a rim
   Pair frozen;
   Vec3 point_B;             ///< where a frozen row starts, in the frame of b's joint
   std::array<Vec3, 2> t_B;  ///< and its tangents there
@@ -52,7 +52,7 @@ struct Row {
   Vec3 of_launch = Vec3::Zero();        ///< what that changes of each rate
   std::array<VecX, 3> by_loops;         ///< (m) and of the loops'; where there are some
 
-  bool is_joint() const { return contact < 0; }
+  bool is_joint() const { return dry >= 0; }
   const Pair& watched() const { return is_frozen ? frozen : *pair; }
   bool is_pressed() const { return is_active && !is_joint() && p[0] > 0; }
 };
@@ -73,7 +73,9 @@ struct Rows {
   int count = 0;
   std::vector<int> active;      ///< those that are solved for
   std::vector<int> of_contact;  ///< (touching) number of its row, or -1
-  std::deque<Contact> ahead;  ///< a pool, at addresses that stay; the first `count_ahead` are used
+  /// Pairs that are open at the node and close by the arc's end: a pool, at addresses that stay;
+  /// the first `count_ahead` are used.
+  std::deque<Contact> ahead;
   int count_ahead = 0;
   double tau = 0;       ///< [s] the arc that their impulses are over
   double residual = 0;  ///< of the law in the arc just solved
@@ -100,10 +102,12 @@ inline double gap_rounding(const Contact& c, const Pair& pair) {
   return 4 * eps * c.point_W.cwiseAbs().maxCoeff() + 1e-5 * pair.touch;
 }
 
+/// The bodies move so little in the arc that all of the row is linear in v.
+bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc);
+
 /// What a row is at the node.
 inline const Contact& contact_of(const Node& node, const Row& row) {
-  if (row.ahead != nullptr) return *row.ahead;
-  return row.is_joint() ? node.dry[-1 - row.contact] : node.contacts[row.contact];
+  return row.is_joint() ? node.dry[row.dry] : *row.contact;
 }
 
 /// Counts a joint with dry friction as sticking in its tree, where its impulse is below its bound

@@ -49,7 +49,7 @@ void take_impulses(const Node& node, double tau, Rows& rows) {
     // a hundredth of what touches is closed, over the arc
     const double closed = row.is_joint() ? 0 : 1e-2 * row.pair->touch / tau;
     W.rest.push_back(std::max(c.epsilon_u, closed));
-    W.bound.push_back(row.is_joint() ? tau / 2 * node.dry_force[-1 - row.contact] : 0);
+    W.bound.push_back(row.is_joint() ? tau / 2 * node.dry_force[row.dry] : 0);
     if (W.own.size() == k && !row.own.isZero(0)) W.own.push_back(row.own);
   }
   if (W.own.size() < rows.active.size()) W.own.clear();

@@ -8,7 +8,7 @@
 namespace saltus {
 namespace {
 
-/// What was measured at the node says that the pair cannot close on the chord. Needs bound_motion.
+/// What was measured at the node says that the pair cannot close on the chord.
 bool is_certified(double distance, const Pair& pair, double floor, const Flight& f) {
   return distance - (f.broad.motion[pair.a] + f.broad.motion[pair.b]) > floor;
 }
@@ -16,8 +16,9 @@ bool is_certified(double distance, const Pair& pair, double floor, const Flight&
 bool is_clear_on_chord(const Scene& scene, const Pair& solid, int slot, const Node& node,
                        const Flight& f) {
   const int number = node.pool.solid_number(slot);
-  if (is_certified(node.clear_solids.least(number, solid), solid, 0, f)) return true;
-  if (node.clear_solids.most(number, solid) <= solid.touch) return false;
+  const double distance = node.clearances.least(Clearances::solids, number, solid);
+  if (is_certified(distance, solid, 0, f)) return true;
+  if (node.clearances.most(Clearances::solids, number, solid) <= solid.touch) return false;
   const ChordHit hit = first_hit_on_chord(scene.model.tree, solid, node.q, f.dq, 0);
   return hit.outcome == ChordHit::Outcome::clear;
 }
@@ -42,7 +43,7 @@ void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   const double level = contact < 0 ? press_below(node, slot) : floor_of(node, slot);
   const Pair& pair = node.pool[slot];
   const double reachable = pair.kind == PairKind::crossing ? 0 : level;  // edges meet at 0
-  const double distance = node.clear_pairs.least(slot, pair);
+  const double distance = node.clearances.least(Clearances::pairs, slot, pair);
   if (!pair.is_stop() && is_certified(distance, pair, reachable, f)) return;
   const ChordHit hit = first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, level);
   if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
@@ -61,7 +62,6 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
   if (model.pairs.empty()) return;
   double margin = 0;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
-  bound_motion(model.tree, node.kin, f.dq, f.broad);
   const Pair* solid = nullptr;
   bool is_clear = false;
   for (const int number : f.broad.candidates) {

@@ -46,14 +46,13 @@ std::optional<Closing> closing_of(const Scene& scene, const Contact& c, double u
 }
 
 /// M^-1 p at the node; what a node without contacts has is the velocity of the arc before.
-const VecX& velocity_at(const Scene& scene, const Node& node, Flight& f) {
-  if (node.has_factors) return node.v;
+/// @return nullptr where the mass matrix is singular
+const VecX* velocity_at(const Scene& scene, const Node& node, Flight& f) {
+  if (node.has_factors) return &node.v;
   f.before_v = f.work.arc.v;
-  if (guess_from_momenta(scene, node, f.work))
-    std::swap(f.before_v, f.work.arc.v);
-  else
-    f.work.arc.v = f.before_v;
-  return f.before_v;
+  const bool known = guess_from_momenta(scene, node, f.work);
+  f.before_v.swap(f.work.arc.v);
+  return known ? &f.before_v : nullptr;
 }
 
 bool is_soft(const Closing& closing, double restitution, double h) {
@@ -74,14 +73,16 @@ bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
     return true;
   }
   if (contact >= 0 || hit.hops || !(hit.s > 0)) return false;
+  if (scene.model.contact_properties(node.pool.number(hit.slot)).restitution >= 1) return false;
   const Pair& pair = node.pool[hit.slot];
   const Gap g = pair_gap(scene.model.tree, node.kin, pair);
   if (is_silent(scene.model.tree, node.kin, pair, g)) return false;
   write_contact(scene, typical_speed(scene, node), hit.slot, pair, g, node, work.rows.dense,
                 f.closing_contact);
   const Contact& c = f.closing_contact;
-  if (!(c.restitution < 1)) return false;
-  const double u = dot(scene.trees, c.n, velocity_at(scene, node, f));
+  const VecX* v = velocity_at(scene, node, f);
+  if (v == nullptr) return false;
+  const double u = dot(scene.trees, c.n, *v);
   const std::optional<Closing> closing = closing_of(scene, c, u, pair, work);
   if (!closing || !is_soft(*closing, c.restitution, scene.options.h)) return false;
   const double over = closing->time + closing->bounces(c.restitution);

@@ -19,15 +19,13 @@ Node::Node(const Scene& scene, PairPool& pairs)
       kin(scene.model.tree),
       M(scene.model.tree, scene.model.packed),
       loops(scene.model),
-      clear_pairs(scene.model.shapes.size()),
-      clear_solids(scene.model.shapes.size()),
+      clearances(scene.model.shapes.size()),
       broad(scene.model.tree, scene.model.shapes, scene.model.pairs) {
   q.setZero(scene.model.tree.n_q);
   for (VecX* x : {&p, &v, &dq, &dense, &column}) x->setZero(scene.model.tree.n_v);
   const std::size_t reserved = std::min(static_cast<std::size_t>(pool.size()), contacts_reserved);
   for (std::size_t i = 0; i < reserved; ++i) contacts.push_back(fresh_contact(scene));
-  clear_pairs.fit(pool.size());
-  clear_solids.fit(pool.solids());
+  clearances.fit(pool.size(), pool.solids());
   add_dry_joints(scene, *this);
   M.lock = locks_of(scene.model.tree, scene.model.equalities);
 }
@@ -97,15 +95,13 @@ void put(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node)
 
 void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
   put(scene, t, q, p, node);
-  for (Clearances* each : {&node.clear_pairs, &node.clear_solids}) each->forget();
+  node.clearances.forget();
 }
 
-void move_node(const Scene& scene, double t, const VecX& q, const VecX& p, const VecX& dq,
-               Node& node) {
+void move_node(const Scene& scene, double t, const VecX& q, const VecX& p,
+               const std::vector<double>& motion, Node& node) {
   put(scene, t, q, p, node);
-  if (scene.model.pairs.empty()) return;
-  bound_motion(scene.model.tree, node.kin, dq, node.broad);
-  for (Clearances* each : {&node.clear_pairs, &node.clear_solids}) each->go(node.broad);
+  node.clearances.go(motion);
 }
 
 Contact::Motion motion_of(double u, double epsilon_u) {

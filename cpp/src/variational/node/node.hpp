@@ -69,7 +69,7 @@ struct Node {
 
   int driven_together = -1;  ///< slot of a pair that loops, or what is told, close; or -1
 
-  Clearances clear_pairs, clear_solids;  ///< of (pool) pairs and their solids
+  Clearances clearances;
 
   // scratch
   BroadPhase broad;
@@ -114,9 +114,10 @@ void place_frames(const Scene& scene, Node& node);
 /// Puts the node there. M and v stay those of before.
 void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node);
 
-/// Puts the node at the end of an arc that starts where it is, and moves by dq (n_v).
-void move_node(const Scene& scene, double t, const VecX& q, const VecX& p, const VecX& dq,
-               Node& node);
+/// Puts the node at the end of an arc that starts where it is.
+/// @param motion (shapes) [m] how far any point of a shape moves in it, at most
+void move_node(const Scene& scene, double t, const VecX& q, const VecX& p,
+               const std::vector<double>& motion, Node& node);
 
 /// Writes contacts (motion included), and v where pairs are near.
 /// @return false where the mass matrix is singular.

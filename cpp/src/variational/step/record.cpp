@@ -139,7 +139,7 @@ void Stepper::Impl::record_arc(double asked, double left, const Launch* launch) 
   for (const int i : work.rows.active) {
     const Row& row = work.rows.row[static_cast<std::size_t>(i)];
     if (row.is_joint()) {
-      record_joint(-1 - row.contact, row.p[0], work.rows.tau, next_of(to.held, to.n_held));
+      record_joint(row.dry, row.p[0], work.rows.tau, next_of(to.held, to.n_held));
     } else if (row.is_pressed()) {
       record_row(row, contact_of(node, row).friction, row.p, next_of(to.held, to.n_held));
     }
