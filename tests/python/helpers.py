@@ -22,3 +22,13 @@ def run_cli(*arguments: object, **options: object) -> subprocess.CompletedProces
     return subprocess.run(
         command, capture_output=True, text=True, env=environment, timeout=120, **options
     )
+
+
+def central_differences(function, x: np.ndarray, step: float = 1e-6) -> np.ndarray:
+    """Return the derivative of a function of x, its columns last."""
+    columns = []
+    for i in range(len(x)):
+        dx = np.zeros(len(x))
+        dx[i] = step
+        columns.append((function(x + dx) - function(x - dx)) / (2 * step))
+    return np.stack(columns, axis=-1)

@@ -8,7 +8,7 @@ import pickle
 
 import numpy as np
 import pytest
-from helpers import random_state
+from helpers import central_differences, random_state
 from hypothesis import given
 from hypothesis import strategies as st
 from scenes import chain, cradle
@@ -92,26 +92,6 @@ def test_wrong_coordinates_are_explained(q, message):
         model.lagrangian(q, np.zeros(6))
 
 
-def test_partials_are_written_into_those_of_an_earlier_call():
-    model = chain(4)
-    out = model.lagrangian(*random_state(model))
-    L_qq, before = out.L_qq, out.L_qq.copy()
-    q, v = np.full(model.n_q, 0.3), np.full(model.n_v, -0.7)
-    assert model.lagrangian(q, v, out=out) is out
-    fresh = model.lagrangian(q, v)
-    assert out.value == fresh.value
-    for name in ("L_q", "L_v", "L_qq", "L_vq", "L_vv"):
-        np.testing.assert_array_equal(getattr(out, name), getattr(fresh, name))
-    np.testing.assert_array_equal(L_qq, fresh.L_qq)  # a view of the same array
-    assert not np.array_equal(L_qq, before)
-    for wrong in ({"q": np.full(model.n_q, np.nan), "v": v}, {"q": q, "v": v[1:]}):
-        with pytest.raises(saltus.ModelError):
-            model.lagrangian(**wrong, out=out)
-        np.testing.assert_array_equal(out.L_qq, fresh.L_qq)
-    with pytest.raises(saltus.ModelError, match="out has partials of n = 4; this model has n_v = 6"):
-        cradle().lagrangian(np.zeros(6), np.zeros(6), out=out)
-
-
 def test_errors_carry_the_culprit():
     with pytest.raises(saltus.ModelError) as error:
         cradle().state({"elbow": 1})
@@ -125,48 +105,6 @@ def test_errors_carry_the_culprit():
         cradle().state(np.zeros(6), np.zeros(5))
     with pytest.raises(saltus.ModelError, match="t is not finite"):
         cradle().state(t=math.nan)
-
-
-def central_differences(function, x: np.ndarray, step: float = 1e-6) -> np.ndarray:
-    columns = []
-    for i in range(len(x)):
-        dx = np.zeros(len(x))
-        dx[i] = step
-        columns.append((function(x + dx) - function(x - dx)) / (2 * step))
-    return np.stack(columns, axis=-1)
-
-
-def test_partials_have_their_numeric_twins():
-    model = chain(4)
-    q, v = random_state(model)
-    L = model.lagrangian(q, v)
-    close = {"rtol": 1e-6, "atol": 1e-8}
-    np.testing.assert_allclose(
-        L.L_q, central_differences(lambda x: model.lagrangian(x, v).value, q), **close
-    )
-    np.testing.assert_allclose(
-        L.L_v, central_differences(lambda x: model.lagrangian(q, x).value, v), **close
-    )
-    np.testing.assert_allclose(
-        L.L_qq, central_differences(lambda x: model.lagrangian(x, v).L_q, q), **close
-    )
-    np.testing.assert_allclose(
-        L.L_vq, central_differences(lambda x: model.lagrangian(x, v).L_v, q), **close
-    )
-    np.testing.assert_allclose(L.L_vv, model.mass_matrix(q), rtol=1e-13, atol=1e-16)
-
-
-def test_partials_are_views_that_cannot_be_written():
-    L = cradle().lagrangian(*random_state(cradle()))
-    assert L.L_qq is not L.L_qq
-    assert np.shares_memory(L.L_qq, L.L_qq)
-    assert np.shares_memory(L.L_v, L.L_v)
-    with pytest.raises(ValueError, match="read-only"):
-        L.L_q[0] = 1
-    view = L.L_vv
-    expected = view.copy()
-    del L
-    np.testing.assert_array_equal(view, expected)  # the view keeps its owner alive
 
 
 def test_gaps_and_their_gradients():

@@ -187,7 +187,8 @@ LagrangianPartials Model::lagrangian(const VecRef& q, const VecRef& v) const {
 void Model::lagrangian(const VecRef& q, const VecRef& v, LagrangianPartials& out) const {
   const VecX unit_q = checked_q(q, "q");
   check_vector(v, n_v(), "v", "velocities");
-  saltus::lagrangian(data_->tree, data_->packed, unit_q, v, out);
+  const VecX own_v = v;  // it may be a part of `out`
+  saltus::lagrangian(data_->tree, data_->packed, unit_q, own_v, out);
 }
 
 MatX Model::mass_matrix(const VecRef& q) const {
