@@ -124,6 +124,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/law/pile_bodies.cpp
   cpp/src/variational/law/pile_island.cpp
   cpp/src/variational/law/pile_newton.cpp
+  cpp/src/variational/law/pile_sweeps.cpp
   cpp/src/variational/uniqueness/certificate.cpp
   cpp/src/variational/uniqueness/coxeter.cpp
   cpp/src/variational/uniqueness/outcomes.cpp

@@ -1,5 +1,5 @@
 // A fixed amount of work for an instruction counter: bench_instructions WORKLOAD FILE prints how
-// many calls it made. WORKLOAD is step, impact or lagrangian; FILE is as in clock.hpp.
+// many calls it made. WORKLOAD is step, driven, impact, rest, fall or lagrangian; FILE is as in clock.hpp.
 //
 // Only what runs inside `saltus_bench_counted` is meant to be counted (callgrind:
 // --toggle-collect=saltus_bench_counted).
@@ -31,9 +31,9 @@ void count(const std::function<void()>& work) {
   saltus_bench_counted();
 }
 
-void count_smooth_steps(const Model& model, State state) {
-  Stepper stepper(model, {.h = 1e-3});
-  for (int i = 0; i < steps_before; ++i) stepper.step(state);
+void count_steps(const Model& model, double h, int before, State state) {
+  Stepper stepper(model, {.h = h});
+  for (int i = 0; i < before; ++i) stepper.step(state);
   for (int i = 0; i < calls; ++i) count([&] { stepper.step(state); });
 }
 
@@ -75,14 +75,18 @@ void run(const std::string& workload, const bench::Job& job) {
   const VecX q = model.integrate(model.neutral(), VecX::Constant(n, job.angle));
   const VecX v = VecX::Constant(n, 0.1);
   if (workload == "step" || is_driven) {
-    count_smooth_steps(model, model.state(q, VecX::Zero(n)));
+    count_steps(model, 1e-3, steps_before, model.state(q, VecX::Zero(n)));
+  } else if (workload == "rest") {
+    count_steps(model, 1e-2, steps_before, model.state(q, VecX::Zero(n)));
+  } else if (workload == "fall") {
+    count_steps(model, 1e-2, 0, model.state(q, VecX::Zero(n)));
   } else if (workload == "impact") {
     count_steps_with_an_impact(model, model.state({{"swing_0", job.angle}}));
   } else if (workload == "lagrangian") {
     for (int i = 0; i < calls; ++i) count([&] { model.lagrangian(q, v); });
   } else {
     throw ModelError("no workload \"" + workload +
-                     "\"; workloads are step, driven, impact, lagrangian");
+                     "\"; workloads are step, driven, impact, rest, fall, lagrangian");
   }
   std::cout << calls << std::endl;
 }

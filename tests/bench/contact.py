@@ -150,6 +150,34 @@ def of_saltus(scene: Scene) -> tuple[Callable[[], list[float]], Callable[[], dic
     return run, lambda: facts
 
 
+def urdf_of(scene: Scene) -> str:
+    """Return the same for programs that read files; bodies start without velocity."""
+    bodies = "".join(urdf_body(i, body) for i, body in enumerate(scene.bodies))
+    planes = "".join(
+        f'<half_space name="plane_{i}" normal="{words(normal)}" offset="{offset}"/>'
+        for i, (normal, offset) in enumerate([((0.0, 0.0, 1.0), 0.0), *scene.walls])
+    )
+    return (
+        f'<robot name="{scene.name}"><link name="world"/>{bodies}<saltus>{planes}'
+        f'<contact restitution="{scene.restitution}" friction="{scene.friction}"/></saltus></robot>'
+    )
+
+
+def urdf_body(i: int, body: Body) -> str:
+    shape, squares = f'<sphere radius="{body.size[0]}"/>', [body.size[0] ** 2 / 5] * 3
+    if not body.is_ball:
+        shape = f'<box size="{words([2 * each for each in body.size])}"/>'
+        squares = [each**2 / 3 for each in body.size]
+    xx, yy, zz = (body.mass * (sum(squares) - each) for each in squares)
+    return (
+        f'<joint name="free_{i}" type="floating"><parent link="world"/><child link="body_{i}"/>'
+        f'<origin xyz="{words(body.place)}"/></joint><link name="body_{i}">'
+        f'<inertial><mass value="{body.mass}"/>'
+        f'<inertia ixx="{xx}" iyy="{yy}" izz="{zz}" ixy="0" ixz="0" iyz="0"/></inertial>'
+        f"<collision><geometry>{shape}</geometry></collision></link>"
+    )
+
+
 def mjcf_of(scene: Scene) -> str:
     bodies = []
     for i, body in enumerate(scene.bodies):

@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.bench import humanoid, scenes
+from tests.bench import contact, humanoid, scenes
 from tests.bench.kernels import BUILD, Programs, compiler, machine, written
 from tests.bench.scenes import Scene
 
@@ -43,9 +43,19 @@ def workloads() -> dict[str, Workload]:
         "step, free body": ("step", Scene("body", "robot", BODY, 0.3, floating=True)),
         "step, touching cradle of 3": ("step", Scene("cradle 3", "touching", cradle.urdf, 0.1)),
         "step with an impact, cradle of 3": ("impact", cradle),
+        "step, tower of 10 at rest": ("rest", pile("tower 10 at rest")),
+        "step, 64 boxes at rest": ("rest", pile("boxes 64")),
+        "step, quadruped standing": ("rest", scenes.standing_quadruped()),
+        "step, heap of 8 falling": ("fall", pile("heap 8")),
         "partials, chain 32": ("lagrangian", scenes.chain(32)),
         "partials, humanoid": ("lagrangian", robot),
     }
+
+
+def pile(name: str) -> Scene:
+    """Return a scene of the bench of contacts, its bodies without velocity."""
+    piles = {scene.name: scene for scene in contact.scenes()}
+    return Scene(name, "pile", contact.urdf_of(piles[name]), 0.0)
 
 
 def count(workload: Workload) -> int:

@@ -18,6 +18,8 @@ ROBOTS = {
 }
 
 
+ROOT = Path(__file__).parents[2]
+
 ROBOTS_RATE = 0.2  # [rad/s] or they would fall freely from rest, and their joints not move
 
 PLACE_HOLDER = 1e-5  # [kg] lighter links have inertias of no body, which MuJoCo refuses
@@ -48,6 +50,17 @@ def cradle(balls: int) -> Scene:
 def touching_cradle(balls: int) -> Scene:
     """Return a cradle with its shapes; its angle is the first ball's."""
     return Scene(f"cradle {balls}", "touching", saltus.scenes.cradle(balls), 0.3, balls=balls)
+
+
+def standing_quadruped() -> Scene:
+    """Return the quadruped of the examples with friction under its feet, and its parcel."""
+    text = (ROOT / "urdf" / "quadruped.urdf").read_text()
+    frictionless, rough = (
+        '<contact restitution="1" friction="0"/>',
+        '<contact restitution="0" friction="0.5"/>',
+    )
+    assert frictionless in text
+    return Scene("quadruped", "pile", text.replace(frictionless, rough), 0.0)
 
 
 def robots() -> tuple[list[Scene], str]:

@@ -143,14 +143,7 @@ def test_loops_that_cannot_be_closed_are_named() -> None:
         saltus.close_loops(builder.build(), [0.3, -0.2])
 
 
-URDF = """<robot name="four-bar"><link name="world"/>
-{links}
-<saltus>
-  <loop name="pin" type="point" link1="rocker" xyz1="0.8 0 0" link2="world" xyz2="1 0 0"/>
-</saltus></robot>"""
-
-
-def test_loops_are_read_from_a_file(tmp_path) -> None:
+def four_bar_text() -> str:
     links, parent, at = "", "world", 0.0
     for name, length in (("crank", 0.4), ("coupler", 1.0), ("rocker", 0.8)):
         links += f"""<link name="{name}"><inertial><origin xyz="{length / 2} 0 0"/><mass value="1"/>
@@ -158,7 +151,13 @@ def test_loops_are_read_from_a_file(tmp_path) -> None:
         <joint name="{name}" type="continuous"><parent link="{parent}"/><child link="{name}"/>
         <origin xyz="{at} 0 0"/><axis xyz="0 0 1"/></joint>"""
         parent, at = name, length
-    text = URDF.format(links=links)
+    return f"""<robot name="four-bar"><link name="world"/>{links}<saltus>
+    <loop name="pin" type="point" link1="rocker" xyz1="0.8 0 0" link2="world" xyz2="1 0 0"/>
+    </saltus></robot>"""
+
+
+def test_loops_are_read_from_a_file(tmp_path) -> None:
+    text = four_bar_text()
     model = saltus.load_urdf(text)
     assert model.loop_names == ["pin"]
     state = saltus.close_loops(model, [1.0, -0.5, -2.0], {"crank": 1.0}, keep=["crank"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.python.test_loop_contacts import URDF
+from tests.python.test_loop_contacts import four_bar_text
 
 import saltus
 from saltus.cli.main import main
@@ -12,15 +12,8 @@ from saltus.cli.main import main
 
 @pytest.fixture
 def four_bar_file(tmp_path):
-    links, parent, at = "", "world", 0.0
-    for name, length in (("crank", 0.4), ("coupler", 1.0), ("rocker", 0.8)):
-        links += f"""<link name="{name}"><inertial><origin xyz="{length / 2} 0 0"/><mass value="1"/>
-        <inertia ixx="0.01" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
-        <joint name="{name}" type="continuous"><parent link="{parent}"/><child link="{name}"/>
-        <origin xyz="{at} 0 0"/><axis xyz="0 0 1"/></joint>"""
-        parent, at = name, length
     path = tmp_path / "four_bar.urdf"
-    path.write_text(URDF.format(links=links))
+    path.write_text(four_bar_text())
     return path
 
 

@@ -59,7 +59,5 @@ def test_partials_are_written_into_those_of_an_earlier_call():
         with pytest.raises(saltus.ModelError):
             model.lagrangian(**wrong, out=out)
         np.testing.assert_array_equal(out.L_qq, fresh.L_qq)
-    with pytest.raises(
-        saltus.ModelError, match="out has partials of n = 4; this model"
-    ):
+    with pytest.raises(saltus.ModelError, match="out has partials of n = 4; this model"):
         cradle().lagrangian(np.zeros(6), np.zeros(6), out=out)

@@ -93,5 +93,62 @@ TEST(Slip, AlongTheNormalTheRowIsTheGradientOfTheGap) {
   }
 }
 
+/// T v where q is moved by dq and v stays: T of the gap there.
+Eigen::Vector2d slip(const Tree& tree, const Pair& pair, int axis, const VecX& q, const VecX& dq,
+                     const VecX& v) {
+  Kinematics kin(tree);
+  set_configuration(tree, testing_scene::moved(tree, q, 1, dq), kin);
+  const Gap g = pair_gap(tree, kin, pair);
+  const Tangents t = tangents(g.n_W, axis);
+  Eigen::Vector2d out;
+  for (int k = 0; k < 2; ++k) {
+    VecX row = VecX::Zero(tree.n_v);
+    add_motion_gradient(tree, kin, pair, contact_point(g), k == 0 ? t.t0 : t.t1, row);
+    out[k] = row.dot(v);
+  }
+  return out;
+}
+
+/// Of round shapes and planes on branching trees with balls.
+TEST(Slip, ItsChangeHasItsNumericTwin) {
+  Random random(4);
+  const std::vector<std::string> kinds = {"sphere", "capsule", "ellipsoid", "half_space"};
+  int tried = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Tree tree =
+        testing_scene::random_tree({.joints = 5, .mimic = 0, .ball = k % 2 ? 0.4 : 0}, random);
+    const Shape a = testing_scene::random_shape(kinds[random.index(3)], random);
+    const Shape b = testing_scene::random_shape(kinds[random.index(4)], random);
+    if (!has_gap(a, b)) continue;
+    const int on_a = testing_scene::carrier(tree, 4), on_b = k % 3 ? k % 2 - 1 : 2;
+    const std::vector<PlacedShape> shapes = {
+        testing_scene::place(a, on_a, random.pose(0.5)),
+        testing_scene::place(b, testing_scene::carrier(tree, on_b), random.pose(2))};
+    const Pair pair = testing_scene::make_pair_of(tree, shapes, 0, 1);
+    const VecX q = testing_scene::random_coordinates(tree, 1, random);
+    const VecX v = random.numbers(tree.n_v, 1);
+    Kinematics kin(tree);
+    set_configuration(tree, q, kin);
+    const Gap g = pair_gap(tree, kin, pair);
+    if (g.phi < 0.05 || pair.chain.empty()) continue;  // where shapes overlap normals may leap
+    ++tried;
+    const int axis = tangent_axis(g.n_W);
+    VecX c0 = VecX::Zero(tree.n_v), c1 = c0;
+    add_slip_change(tree, kin, pair, g, axis, v, 1, c0, c1);
+    constexpr double step = 1e-5;
+    std::vector<int> velocities;
+    list_velocities(tree, pair, velocities);
+    for (const int c : velocities) {
+      const VecX dq = step * VecX::Unit(tree.n_v, c);
+      const Eigen::Vector2d twin =
+          (slip(tree, pair, axis, q, dq, v) - slip(tree, pair, axis, q, -dq, v)) / (2 * step);
+      // 1e-7: the differences' own error, with curvatures of 10 / m
+      EXPECT_NEAR(c0[c], twin[0], 1e-7 * (1 + std::abs(twin[0]))) << k << " " << c;
+      EXPECT_NEAR(c1[c], twin[1], 1e-7 * (1 + std::abs(twin[1]))) << k << " " << c;
+    }
+  }
+  EXPECT_GT(tried, 50);
+}
+
 }  // namespace
 }  // namespace saltus

@@ -37,4 +37,15 @@ inline Vec3 friction_point(const Gap& gap, const Pair& pair) {
 SALTUS_EXPORT void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                        const Vec3& P_W, const Vec3& d_W, Eigen::Ref<VecX> row);
 
+/// What a change of the configuration makes of the rows T (tangents(n, axis), at contact_point)
+/// where the velocity v stays: adds `factor` times the derivatives of T v by the velocities that
+/// move one against the other to `c0`, `c1` (n_v). What moves both turns the tangents in their
+/// plane, no more. With joint j moving the body a against b by t_j = s_j [w_j; xi_j] (section 7), b
+/// itself where j is on its branch, U and W the velocity of a against b at P and how it turns,
+///
+///   (d.U)' = d'.U + d.(W x P') + d.(w_j x U_j - W_j x xi_j)     U_j, W_j those of joints below j
+SALTUS_EXPORT void add_slip_change(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                   const Gap& gap, int axis, const VecRef& v, double factor,
+                                   Eigen::Ref<VecX> c0, Eigen::Ref<VecX> c1);
+
 }  // namespace saltus

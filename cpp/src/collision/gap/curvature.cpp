@@ -64,13 +64,37 @@ Stationary stationary(const Gap& gap, const Mat32& E) {
 
 }  // namespace
 
+namespace {
+
+/// Of a ball or a corner against a ball, a corner or a plane that stands still.
+GapMotion motion_of_point(const Gap& gap, double r_a, double r_b) {
+  GapMotion out;
+  const Mat3 across = Mat3::Identity() - gap.n_W * gap.n_W.transpose();
+  const bool is_flat = gap.b.dim == 2;
+  out.n.setZero();
+  if (!is_flat) out.n.rightCols<3>() = across / gap.d;
+  out.p_WA = -r_a * out.n;
+  out.p_WA.rightCols<3>() += Mat3::Identity();
+  out.p_WB = r_b * out.n;
+  if (is_flat) out.p_WB.rightCols<3>() = across;
+  return out;
+}
+
+bool is_flat(const Patch& patch) {
+  return patch.dim == 2 && patch.k00 == 0 && patch.k01 == 0 && patch.k11 == 0;
+}
+
+}  // namespace
+
 GapMotion gap_motion(const Gap& gap) {
+  const double r_a = (gap.center_W - gap.p_WA).dot(gap.n_W), r_b = gap.d - gap.phi - r_a;
+  const bool is_ball = gap.b.dim == 0 && std::abs(gap.d) > no_length;
+  if (gap.a.dim == 0 && (is_ball || is_flat(gap.b))) return motion_of_point(gap, r_a, r_b);
   const Mat32 E = axes_across(gap.n_W);
   const Stationary s = stationary(gap, E);
   const Mat6 z = -Eigen::FullPivLU<Mat6>(s.M).solve(s.g);
   GapMotion out;
   out.n = E * z.bottomRows<2>();
-  const double r_a = (gap.center_W - gap.p_WA).dot(gap.n_W), r_b = gap.d - gap.phi - r_a;
   out.p_WA = -r_a * out.n;
   out.p_WA.rightCols<3>() += Mat3::Identity();  // u is the velocity of the core's point
   out.p_WB = r_b * out.n;

@@ -149,11 +149,12 @@ ArcScratch::ArcScratch(const ModelData& model, ImpactLaw law)
       J(model.tree, model.packed),
       products(model.packed),
       w_end(model.packed),
-      kin_end(model.tree) {
+      kin_end(model.tree),
+      kin_mid(model.tree) {
   if (law == ImpactLaw::compensated) compensation.emplace(model);
   if (model.equalities.rows > 0) loops.emplace(model);
   J.lock = locks_of(model.tree, model.equalities);
-  q.setZero(model.tree.n_q);
+  for (VecX* each : {&q, &q_placed}) each->setZero(model.tree.n_q);
   for (VecX* each : {&L_v, &L_q, &r, &scale, &dv, &x}) each->setZero(model.tree.n_v);
   prepare_forces(model, *this);
 }
@@ -166,30 +167,24 @@ void set_second_partials(const ModelData& model, ArcScratch& s) {
 }
 
 void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s) {
+  if (s.is_placed && s.q_placed == q_end) return;
+  s.q_placed = q_end;
+  s.is_placed = true;
   set_coordinates(model.tree, model.packed, q_end, s.w_end);
   place(model.packed, s.w_end);
 }
 
-namespace {
-
-/// Poses of the pair's joints from `w`, and the gap there.
-Gap gap_in(const ModelData& model, const Pair& pair, const Packed& w, Kinematics& kin) {
-  for (const ChainJoint& k : pair.chain) copy_pose(model.tree, model.packed, w, k.joint, kin);
-  for (const Placed* part : {&pair.on_a, &pair.on_b}) {  // one may hang where the chain turns
-    const int joint = part->joint;
-    if (joint >= 0) copy_pose(model.tree, model.packed, w, joint, kin);
-  }
-  return pair_gap(model.tree, kin, pair);
-}
-
-}  // namespace
-
 Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
-  return gap_in(model, pair, s.w_end, s.kin_end);
+  for (const int joint : {pair.on_a.joint, pair.on_b.joint}) {
+    if (joint >= 0) copy_pose(model.tree, model.packed, s.w_end, joint, s.kin_end);
+  }
+  return pair_gap(model.tree, s.kin_end, pair);
 }
 
-Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s) {
-  return gap_in(model, pair, s.w, s.kin_end);
+void place_chain_at_end(const ModelData& model, const Pair& pair, ArcScratch& s) {
+  for (const ChainJoint& k : pair.chain) {
+    copy_pose(model.tree, model.packed, s.w_end, k.joint, s.kin_end);
+  }
 }
 
 bool is_converged(double residual, double before) {

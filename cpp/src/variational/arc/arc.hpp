@@ -91,8 +91,11 @@ struct ArcScratch {
   bool has_second = false;  ///< second_pass sums in place: once an evaluation
   PackedMatrix J;
   PackedProducts products;
-  Packed w_end;        ///< written by place_end
-  Kinematics kin_end;  ///< by pair_gap_at_end, for the joints of one pair at a time
+  Packed w_end;   ///< written by place_end
+  VecX q_placed;  ///< (n_q) where w_end is, if it is anywhere
+  bool is_placed = false;
+  Kinematics kin_end;  ///< of the joints that somebody asked for
+  Kinematics kin_mid;  ///< likewise in the arc's middle
   VecX q;              ///< (n_q) scratch: where the arc is evaluated, or ends
   VecX L_v, L_q;       ///< (n_v) of the arc: of balls L_v', L_q'
   VecX r, scale, dv, x;
@@ -107,11 +110,11 @@ bool solve_arc(const ModelData& model, const ArcProblem& problem, int max_iterat
 /// Poses at q_end in s.w_end.
 void place_end(const ModelData& model, const VecX& q_end, ArcScratch& s);
 
-/// Gap of a pair there; add_gap_gradient with s.kin_end may follow. Needs place_end.
+/// Gap of a pair there. Needs place_end.
 Gap pair_gap_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
 
-/// The same in the middle of the arc that was evaluated last.
-Gap pair_gap_at_mid(const ModelData& model, const Pair& pair, ArcScratch& s);
+/// All poses of the pair's chain in s.kin_end, for add_gap_gradient. Needs place_end.
+void place_chain_at_end(const ModelData& model, const Pair& pair, ArcScratch& s);
 
 /// Second partials at the last evaluation, into s.w.
 void set_second_partials(const ModelData& model, ArcScratch& s);

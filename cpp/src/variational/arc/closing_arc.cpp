@@ -12,6 +12,7 @@ double gap_at_end(const ModelData& model, const ArcProblem& a, const VecX& v, co
   integrate(model.tree, a.q, a.tau, v, s.q);
   place_end(model, s.q, s);
   const Gap gap = pair_gap_at_end(model, pair, s);
+  place_chain_at_end(model, pair, s);
   n.setZero();
   add_gap_gradient(model.tree, s.kin_end, pair, gap, n);
   return gap.phi;

@@ -168,8 +168,8 @@ bool share_as_before(const Scene& scene, Node& node, HalfKick& kick) {
     for (int k = 0; k < c->rates(); ++k) kick.u.back()[k] = dot(scene.trees, c->row(k), node.v);
   }
   const Lawlessness law = lawlessness(W, kick.u, kick.p);
-  // more than rounding would go on to the next arc, whose half kick turns it round
-  if (law.residual <= 4e-15) {
+  // more than rounding, of sums over so many, would go on to the next arc, whose half kick turns it
+  if (law.residual <= 4e-15 + 1e-16 * static_cast<double>(kick.contacts.size())) {
     kick.residual = law.excess;
     return true;
   }
@@ -241,13 +241,16 @@ void remember(const HalfKick& kick, Memory& memory) {
   }
 }
 
-bool finish(const Scene& scene, double t, const ArcWork& work, const std::vector<double>& motion,
+bool finish(const Scene& scene, double t, const std::vector<double>& motion, ArcWork& work,
             Node& node, HalfKick& kick) {
   kick.impulses.clear();
   kick.contacts.clear();
   kick.residual = kick.dry_work = 0;
   node.v = work.arc.v;
-  move_node(scene, t, work.arc.q_end, work.arc.p_end, motion, node);
+  ArcScratch& s = work.scratch;
+  const bool is_placed = s.is_placed && s.q_placed == work.arc.q_end;
+  s.is_placed = false;
+  move_node(scene, t, work.arc.q_end, work.arc.p_end, motion, is_placed ? &s.w_end : nullptr, node);
   if (node.loops.some && !set_velocity_at_node(scene, node)) return false;
   if (!find_contacts(scene, node)) return false;
   if (work.rows.count == 0) return true;

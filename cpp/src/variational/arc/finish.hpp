@@ -47,10 +47,11 @@ struct HalfKick {
 /// by twice what was wrong with the former, so that their mean is the guess.
 void remember(const HalfKick& kick, Memory& memory);
 
-/// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts.
+/// Puts the node at the end of the arc, at time t. Writes q, p, v and contacts, and takes the
+/// frames there from the arc if they are known.
 /// @param motion (shapes) as move_node takes it
 /// @return false where the mass matrix is singular.
-bool finish(const Scene& scene, double t, const ArcWork& work, const std::vector<double>& motion,
+bool finish(const Scene& scene, double t, const std::vector<double>& motion, ArcWork& work,
             Node& node, HalfKick& kick);
 
 }  // namespace saltus

@@ -17,18 +17,35 @@ double take_rate(const Scene& scene, const Contact& c, int k, const VecX& v, Row
   return dot(scene.trees, row.rate[k], v);
 }
 
+/// The middle of the arc moves with v, too: to the rates what it makes of T v.
+void add_sliding_change(const Scene& scene, const Gap& g, int axis, Row& row, ArcWork& work) {
+  Rows& rows = work.rows;
+  add_slip_change(scene.model.tree, work.scratch.kin_mid, row.watched(), g, axis, work.arc.v,
+                  work.arc.tau / 2, rows.change[0], rows.change[1]);
+  for (int k = 0; k < 2; ++k) {
+    std::vector<double>& rate = row.rate[k + 1].value;
+    rows.turn.part = row.rate[k + 1].part;
+    rows.turn.value.resize(rate.size());
+    take_from(scene.trees, rows.change[k], rows.turn);
+    for (std::size_t i = 0; i < rate.size(); ++i) rate[i] += rows.turn.value[i];
+  }
+}
+
 /// Tangential rates in the middle of the arc, where rolling has its slip: T v.
-void set_sliding(const Scene& scene, const Contact& c, Row& row, Vec3& u, ArcWork& work) {
+void set_sliding(const Scene& scene, const Contact& c, bool still, Row& row, Vec3& u,
+                 ArcWork& work) {
   const Tree& tree = scene.model.tree;
-  ArcScratch& s = work.scratch;
-  const Gap g = pair_gap_at_mid(scene.model, row.watched(), s);
-  const Tangents t = tangents(g.n_W, tangent_axis(c.n_W));
+  const Kinematics& kin = work.scratch.kin_mid;
+  const Gap g = pair_gap(tree, kin, row.watched());
+  const int axis = tangent_axis(c.n_W);
+  const Tangents t = tangents(g.n_W, axis);
   const Vec3 P = contact_point(g);
   for (int k = 1; k < 3; ++k) {
     const Vec3& t_W = k == 1 ? t.t0 : t.t1;
-    add_motion_gradient(tree, s.kin_end, row.watched(), P, t_W, work.rows.dense);
+    add_motion_gradient(tree, kin, row.watched(), P, t_W, work.rows.dense);
     u[k] = take_rate(scene, c, k, work.arc.v, row, work.rows);
   }
+  if (!still) add_sliding_change(scene, g, axis, row, work);
 }
 
 /// Tangential rates of a point: its chord on the plane, as b's body sees it.
@@ -61,6 +78,8 @@ void set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
   const double tau = work.arc.tau;
   integrate(model.tree, node.q, tau, work.arc.v, s.q);
   place_end(model, s.q, s);
+  copy_poses(model.tree, model.packed, s.w_end, s.kin_end);
+  if (scene.has_friction) copy_poses(model.tree, model.packed, s.w, s.kin_mid);
   rows.u.resize(rows.active.size());
   for (std::size_t i = 0; i < rows.active.size(); ++i) {
     Row& row = active_row(rows, i);
@@ -70,14 +89,14 @@ void set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
       continue;
     }
     const bool slides = c.friction > 0;
-    Vec3& u = rows.u[i];
-    u.setZero();
-    if (slides && !row.is_point) set_sliding(scene, c, row, u, work);
-    const Gap g = pair_gap_at_end(model, row.watched(), s);
-    add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
-    const double linear = take_rate(scene, c, 0, work.arc.v, row, rows);
     // then rates over the arc would be rounding of positions, which what rests must not follow
     const bool still = !row.pair->is_stop() && is_still(scene, c, row, work.arc);
+    Vec3& u = rows.u[i];
+    u.setZero();
+    if (slides && !row.is_point) set_sliding(scene, c, still, row, u, work);
+    const Gap g = pair_gap(model.tree, s.kin_end, row.watched());
+    add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
+    const double linear = take_rate(scene, c, 0, work.arc.v, row, rows);
     u[0] = still ? linear + (c.phi - row.target) / tau : (g.phi - row.target) / tau;
     if (slides && row.is_point) set_chord(scene, c, g, still, row, u, work);
   }

@@ -85,10 +85,12 @@ struct Rows {
   Neighbours neighbours;
   std::vector<Vec3> u, p, before;
   PileScratch pile;
-  std::vector<int> sticking;  ///< (trees) joints that stick
-  VecX dense, column;         ///< (n_v) the first zero between uses
-  VecX momentum;              ///< (n_v) the node's with all impulses, written by set_row_rates
-  VecX size;                  ///< (n_v) of all that is summed up in it, likewise
+  std::vector<int> sticking;   ///< (trees) joints that stick
+  VecX dense, column;          ///< (n_v) the first zero between uses
+  std::array<VecX, 2> change;  ///< (n_v) likewise zero
+  ContactVector turn;          ///< what of it a row has
+  VecX momentum;               ///< (n_v) the node's with all impulses, written by set_row_rates
+  VecX size;                   ///< (n_v) of all that is summed up in it, likewise
 };
 
 /// Number k of the rows that an arc is solved with.

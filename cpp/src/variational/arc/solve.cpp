@@ -126,6 +126,8 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     const bool meets_arc = arc.residual <= most_residual;
     if (meets_arc && ends && rows.residual <= large_residual) break;
     if (meets_arc && is_solved && is_lawful(now, before, rows.active.size())) break;
+    work.is_rough = round > 0 && now.residual <= work.rough;
+    if (work.is_rough) break;
     if (ends || !std::isfinite(now.residual) || !step_row_rates(scene, node, work)) {
       note_unlawful(rows, work);
       return false;
@@ -140,7 +142,8 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     if (is_solved) continue;
     if (knows_sizes) set_row_blocks(scene, node, work);  // not for what is lawful already
     rows.before = rows.p;
-    settle_for_sure(rows.W, rows.pile, rows.u, rows.p, 1e-4);  // the next round finds the rest
+    // the next round finds the rest, with twice the digits
+    settle_for_sure(rows.W, rows.pile, rows.u, rows.p, std::min(1e-2, law.residual));
     add_change(scene, work);
   }
   if (!node.dry.empty()) stand_still(scene, node, work);
@@ -171,6 +174,7 @@ ArcProblem arc_problem(const Scene& scene, double tau, const Node& node, ArcWork
 bool guess_from_momenta(const Scene& scene, const Node& node, ArcWork& work) {
   const ModelData& model = scene.model;
   ArcScratch& s = work.scratch;
+  s.is_placed = false;
   set_coordinates(model.tree, model.packed, node.q, s.w_end);
   place(model.packed, s.w_end);
   mass_pass(model.packed, s.w_end);
@@ -181,6 +185,7 @@ bool guess_from_momenta(const Scene& scene, const Node& node, ArcWork& work) {
 }
 
 bool solve(const Scene& scene, double tau, const Node& node, ArcWork& work) {
+  work.is_rough = false;
   if (work.scratch.loops) work.scratch.loops->mu.setZero();
   if (work.rows.active.empty()) {
     const bool converged = solve_arc(scene.model, arc_problem(scene, tau, node, work),

@@ -21,12 +21,17 @@ struct ArcWork {
   Rows rows;
   LaunchLine line;
   ArcScratch scratch;
-  int iterations = 0;  ///< Newton's, of all arcs tried
-  int unlawful = -1;   ///< slot of the pair that the law was least met by, where it was not
+  int iterations = 0;     ///< Newton's, of all arcs tried
+  double rough = 0;       ///< residual of an arc that is only looked at; 0 for one that is flown
+  bool is_rough = false;  ///< `solve` has left it at that
+  int unlawful = -1;      ///< slot of the pair that the law was least met by, where it was not
 };
 
 /// Of the arc's equation in an arc that rows hold: quadratically less as a rule.
 inline constexpr double most_residual = 1e-12;
+
+/// Enough to see what an arc does: two rounds of the law.
+inline constexpr double rough_look = 1e-5;
 
 /// The arc from the node with the launch, and with the impulses in rows.momentum if rows are
 /// active.

@@ -37,8 +37,8 @@ bool is_watched(const Node& node, const Flight& f, int slot) {
          f.work.rows.of_contact[contact] < 0;
 }
 
+/// Of a pair that is watched.
 void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
-  if (!is_watched(node, f, slot)) return;
   const int contact = node.contact_at(slot);
   const double level = contact < 0 ? press_below(node, slot) : floor_of(node, slot);
   const Pair& pair = node.pool[slot];
@@ -58,20 +58,29 @@ void find_hits(const Scene& scene, const Node& node, Flight& f) {
   f.hits.clear();
   if (!model.has_gaps()) return;
   f.dq = f.work.arc.tau * f.work.arc.v;
-  for (int slot = 0; slot < node.pool.limits(); ++slot) add_if_hit(scene, slot, node, f);
+  for (int slot = 0; slot < node.pool.limits(); ++slot) {
+    if (is_watched(node, f, slot)) add_if_hit(scene, slot, node, f);
+  }
   if (model.pairs.empty()) return;
   double margin = 0;
   find_candidates(model.tree, model.shapes, model.pairs, node.kin, f.dq, margin, f.broad);
   const Pair* solid = nullptr;
   bool is_clear = false;
+  double coordinate = 0;  // of the two bodies, whose parts follow each other
   for (const int number : f.broad.candidates) {
     const int slot = node.pool.slot_of(model, number);
-    if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
-      slot_at(scene, number, node);
-      solid = node.pool.solid(slot);
+    const Pair* of_parts = node.pool.solid(slot);
+    if (of_parts == nullptr || of_parts != solid) {
+      coordinate = largest_coordinate(scene, node.pool[slot], node);
+    }
+    if (of_parts != solid) {  // no part is nearer than the whole
+      node.pool.know_ulps(slot, coordinate);
+      solid = of_parts;
       is_clear = solid != nullptr && is_clear_on_chord(scene, *solid, slot, node, f);
     }
-    if (!is_clear) add_if_hit(scene, slot_at(scene, number, node), node, f);
+    if (is_clear || !is_watched(node, f, slot)) continue;
+    node.pool.know_ulps(slot, coordinate);
+    add_if_hit(scene, slot, node, f);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "variational/flight/first_hit.hpp"
 #include "variational/flight/impact_time.hpp"
@@ -145,6 +146,8 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   work.line.use = LaunchLine::Use::none;
   f.has_missed_energy = false;
   make_rows(scene, left, node, memory, work.rows);
+  // rows that have changed most often change others: a look is enough until none does
+  work.rough = launch == nullptr ? rough_look : 0;
   if (!solve_first_arc(scene, left, node, memory, work)) {
     if (!level_held_ends(scene, node, work.rows)) return no_arc(work);
     work.arc.v = node.v;
@@ -162,12 +165,11 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       if (launch != nullptr) f.has_missed_energy = !meet(scene, tau, *launch, node, f);
       launch = nullptr;
       solved = false;
-      if (change_rows(scene, node, f)) {
-        knows_hits = false;
-        continue;
-      }
-      if (!knows_hits) find_hits(scene, node, f);
-      if (rest_soft_hits(scene, node, f)) {
+      bool changes = change_rows(scene, node, f);
+      if (!changes && !knows_hits) find_hits(scene, node, f);
+      changes = changes || rest_soft_hits(scene, node, f);
+      work.rough = changes ? rough_look : 0;
+      if (changes || work.is_rough) {
         knows_hits = false;
         continue;
       }

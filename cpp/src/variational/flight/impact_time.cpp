@@ -29,6 +29,7 @@ GapAtEnd gap_at_end(const Scene& scene, const Pair& pair, Memory& memory, Flight
   ArcScratch& s = f.work.scratch;
   place_end(model, arc.q_end, s);
   const Gap g = pair_gap_at_end(model, pair, s);
+  place_chain_at_end(model, pair, s);
   f.n.setZero();
   add_gap_gradient(model.tree, s.kin_end, pair, g, f.n);
   arc_rate(model, arc, s, memory.rate);
@@ -85,7 +86,16 @@ double root_on_path(const Scene& scene, const Pair& pair, const Bracket& b, cons
                     Flight& f) {
   double lo = b.lo, hi = b.hi;
   double g_lo = gap_on_path(scene, pair, lo, node, f), g_hi = gap_on_path(scene, pair, hi, node, f);
-  if (!(g_lo > 0) || !(g_hi < 0)) return (lo + hi) / 2;
+  if (!(g_lo > 0)) return (lo + hi) / 2;
+  if (!(g_hi < 0)) {  // the path is known about its start
+    double step = (b.hi - b.lo) / 256;
+    for (hi = lo + step; hi < b.hi; lo = hi, g_lo = g_hi, hi = lo + step) {
+      g_hi = gap_on_path(scene, pair, hi, node, f);
+      if (g_hi < 0) break;
+      step *= 2;
+    }
+    if (!(g_hi < 0)) return (b.lo + b.hi) / 2;
+  }
   int side = 0;
   for (int k = 0; k < 30 && hi - lo > 1e-14 * b.hi; ++k) {
     const double tau = std::clamp((lo * g_hi - hi * g_lo) / (g_hi - g_lo), lo, hi);
@@ -195,13 +205,19 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
   if (!(hop.drop < 0)) return ImpactTime::missed;
   const double back = hop.back;
   if (c.u * back / 4 <= pair.touch) return ImpactTime::at_rest;  // height of the hop
-  // half the way back is near the top of the hop, where the gap is open; halve on if not
+  // half the way back is near the top of the hop, where the gap is open; if not, it comes back
+  // sooner: as the gap there says, or half of that
   double lo = back / 2;
   for (int k = 0;; ++k) {
-    if (!solve(scene, lo, node, f.work)) return ImpactTime::not_converged;
-    if (phi_at_end(scene, pair, f.work) > pair.touch) break;
+    f.work.rough = rough_look;
+    const bool is_solved = solve(scene, lo, node, f.work);
+    f.work.rough = 0;
+    if (!is_solved) return ImpactTime::not_converged;
+    const double phi = phi_at_end(scene, pair, f.work);
+    if (phi > pair.touch) break;
     if (k == 40) return ImpactTime::at_rest;
-    lo /= 2;
+    const double drop = phi - c.phi - c.u * lo;
+    lo = std::min(lo / 2, std::max(-c.u * lo * lo / drop / 2, lo / 16));
   }
   const double start = back > lo ? back : 1.5 * lo;
   const bool closes = c.phi + c.u * tau + hop.drop < 0;

@@ -73,7 +73,7 @@ bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
     return true;
   }
   if (contact >= 0 || hit.hops || !(hit.s > 0)) return false;
-  if (scene.model.contact_properties(node.pool.number(hit.slot)).restitution >= 1) return false;
+  if (properties_of(scene, hit.slot, node).restitution >= 1) return false;
   const Pair& pair = node.pool[hit.slot];
   const Gap g = pair_gap(scene.model.tree, node.kin, pair);
   if (is_silent(scene.model.tree, node.kin, pair, g)) return false;

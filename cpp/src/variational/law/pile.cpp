@@ -11,6 +11,9 @@ constexpr double settled = 1e-15;  ///< residual that is rounding
 constexpr int most_rounds = 80;    ///< 5 to 20 are usual
 constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
 constexpr int most_idle = 40;      ///< rounds that halve nothing
+constexpr double unknown = 1e-5;   ///< residual of impulses by contacts that do other than they did
+constexpr int most_sweeps = 30;    ///< as much work as one or two iterations
+constexpr int few = 4;             ///< contacts that Newton's method finds the way of by itself
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
 
 int root_of(int i, std::vector<int>& island) {
@@ -40,15 +43,16 @@ void sort_by_island(const ContactBlocks& W, PileScratch& s) {
 }  // namespace
 
 /// Newton's method for one round, from z = 0 on. @return iterations
-int PileIsland::solve_round(double rho, bool& ended) {
+int PileIsland::solve_round(double rho, double part, bool& ended) {
   const double size_before = size_of_impulses();
   std::fill(s_.z.begin(), s_.z.end(), 0.0);
   double f = set_F(rho, s_.z, s_.F);
   const double start = f;
+  const double enough = std::clamp(1e-2 * part, 1e-8, 1e-5) * start;
   ended = false;
   for (int iteration = 0; iteration < most_newton; ++iteration) {
     const double size = size_before + Eigen::Map<Eigen::RowVectorXd>(s_.z.data(), r_).norm();
-    ended = f <= 1e-14 * size || f <= 1e-8 * start;
+    ended = f <= 1e-14 * size || f <= enough;
     if (ended) return iteration;
     set_slope(rho);
     if (!solve_slope()) return iteration;
@@ -91,10 +95,10 @@ void PileIsland::set_base(double rho) {
 /// p_k+1 from p_k. @return false, and nothing changed, where Newton's method does not end, or, with
 /// friction, ends farther from the law. Without, rounds end at it whatever it looks like on the
 /// way.
-bool PileIsland::take_round(double rho, Settled& out) {
+bool PileIsland::take_round(double rho, double part, Settled& out) {
   set_base(rho);
   bool ended = false;
-  out.iterations += solve_round(rho, ended);
+  out.iterations += solve_round(rho, part, ended);
   if (!ended) return false;
   set_F(rho, s_.z, s_.F);
   for (int i = 0; i < k_; ++i) s_.trial[i] = s_.q[i] - s_.p[i];
@@ -119,6 +123,12 @@ Settled PileIsland::settle_scaled(double part) {
   const double enough = std::max(settled, part * out.residual);
   if (out.residual <= settled) return out;
   factorize();
+  if (out.residual > unknown && k_ > few && !has_redundant()) {
+    sweep(most_sweeps);
+    const PileResidual now = residual();
+    out = {now.part(), now.worst, 0};
+    if (out.residual <= enough) return out;
+  }
   // far from the law softly, near it not; at once where it is known what each contact does
   const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
   double rho = stiff_rho, halved = out.residual;
@@ -128,7 +138,7 @@ Settled PileIsland::settle_scaled(double part) {
   s_.u_best = s_.u;
   for (int round = 0; round < most_rounds && out.residual > enough && rho >= least_rho; ++round) {
     const Settled before = out;
-    const bool taken = take_round(rho, out);
+    const bool taken = take_round(rho, part, out);
     const bool grows = taken && (is_convex_ || out.residual < before.residual);
     const bool easy = out.iterations - before.iterations <= 2;
     if (!taken && out.residual < 1e-12) break;  // rounding
@@ -181,6 +191,7 @@ void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest, &bound}) each->reserve(k);
   for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial}) each->reserve(k);
+  step.reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
@@ -247,8 +258,8 @@ Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3
   const Settled first = settle_pile(W, s, u, p, part);
   if (first.least() <= small_residual || (part > 0 && first.least() < before / 2)) return first;
   // sweeps lead out of where Newton's method turns in a circle
-  const int most_sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
-  settle(W, most_sweeps, u, p);
+  const int sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
+  settle(W, sweeps, u, p);
   return settle_pile(W, s, u, p, part);
 }
 

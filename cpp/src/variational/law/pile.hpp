@@ -68,6 +68,7 @@ struct PileScratch {
   std::vector<int> body_first, body_count;   ///< (bodies)
   std::vector<int> near_begin, near, queue;  ///< (bodies + 1), (2 k) contacts of each; (bodies)
   std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
+  std::vector<std::array<double, 2>> step;           ///< (k) by `sweep`
   std::vector<Vec3> u_best, p_best;                  ///< (k) nearest to the law so far
   std::vector<double> z, z_new, dz, F, F_new;        ///< (r)
 

@@ -103,7 +103,8 @@ void PileIsland::add_rate(int i, int rate) {
 /// W = L K^T by rows: with coordinates of bodies as columns, where these are few and known; else in
 /// the order of contacts, L and K with the bands that W has.
 void PileIsland::factorize() {
-  if (find_bodies()) {
+  is_by_bodies_ = find_bodies();
+  if (is_by_bodies_) {
     order_bodies();
     take_factors();
     balance();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "variational/law/pile.hpp"
@@ -42,7 +43,7 @@ class PileIsland {
 
  private:
   Settled settle_scaled(double part);
-  bool take_round(double rho, Settled& out);
+  bool take_round(double rho, double part, Settled& out);
   void set_base(double rho);
   int contact(int i) const { return s_.order[static_cast<std::size_t>(begin_ + i)]; }
   Row row_of(std::vector<double>& matrix, int i) {
@@ -53,6 +54,8 @@ class PileIsland {
   Row row_of_L(int i) { return row_of(s_.L, i); }
   Row row_of_K(int i) { return row_of(s_.K, i); }
   void set_sizes();
+  bool has_redundant() const;
+  void sweep(int sweeps);
   void set_W();
   void factorize();
   bool find_bodies();
@@ -76,14 +79,15 @@ class PileIsland {
   void add_to_slope(int i, int c, int first, int n);
   bool solve_slope();
   void eliminate(int c, int end);
-  int solve_round(double rho, bool& ended);
+  int solve_round(double rho, double part, bool& ended);
   double size_of_impulses();
 
   const ContactBlocks& W_;
-  int begin_, k_;          ///< contacts
-  int stride_;             ///< of rows
-  int r_ = 0;              ///< columns of L and K
-  bool is_convex_ = true;  ///< no friction
+  int begin_, k_;              ///< contacts
+  int stride_;                 ///< of rows
+  int r_ = 0;                  ///< columns of L and K
+  bool is_convex_ = true;      ///< no friction
+  bool is_by_bodies_ = false;  ///< columns are coordinates of bodies, and rank is not known
   PileScratch& s_;
 };
 

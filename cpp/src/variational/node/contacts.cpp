@@ -196,7 +196,7 @@ void write_contact(const Scene& scene, double speed, int slot, const Pair& as, c
   c.n_W = g.n_W;
   c.p_WB = g.p_WB;
   c.point_W = contact_point(g);
-  const ContactProperties properties = scene.model.contact_properties(node.pool.number(slot));
+  const ContactProperties properties = properties_of(scene, slot, node);
   c.restitution = properties.restitution;
   c.friction = properties.friction;
   classify(scene, node, speed, c);
@@ -268,21 +268,27 @@ bool find_contacts(const Scene& scene, Node& node) {
   }
   const Pair* solid = nullptr;
   bool is_near = true;
+  double coordinate = 0;  // of the two bodies, whose parts follow each other
   FirstOf first;
   for (const int number : node.broad.candidates) {
     const int slot = node.pool.slot_of(model, number);
     fit(node);
-    if (node.pool.solid(slot) != solid) {  // no part is nearer than the whole
-      slot_at(scene, number, node);
+    const Pair* of_parts = node.pool.solid(slot);
+    if (of_parts == nullptr || of_parts != solid) {
+      coordinate = largest_coordinate(scene, node.pool[slot], node);
+    }
+    if (of_parts != solid) {  // no part is nearer than the whole
+      node.pool.know_ulps(slot, coordinate);
       merge_witnesses(first, node);
-      solid = node.pool.solid(slot);
+      solid = of_parts;
       is_near = solid == nullptr || is_solid_near(scene, speed, slot, node);
       first = {node.touching, node.silent.size()};
     }
     const Pair& pair = node.pool[slot];
     if (!is_near || node.clearances.least(Clearances::pairs, slot, pair) > pair.touch + near)
       continue;
-    add_if_touching(scene, speed, slot_at(scene, number, node), node);
+    node.pool.know_ulps(slot, coordinate);
+    add_if_touching(scene, speed, slot, node);
   }
   merge_witnesses(first, node);
   return true;

@@ -46,16 +46,20 @@ void add_dry_joints(const Scene& scene, Node& node) {
   }
 }
 
-int slot_at(const Scene& scene, int number, const Node& node) {
-  const int slot = node.pool.slot_of(scene.model, number);
+double largest_coordinate(const Scene& scene, const Pair& pair, const Node& node) {
   double coordinate = 0;
-  for (const int joint : {node.pool[slot].on_a.joint, node.pool[slot].on_b.joint}) {
+  for (const int joint : {pair.on_a.joint, pair.on_b.joint}) {
     if (joint < 0) continue;
     coordinate =
         std::max(coordinate, node.kin.X_WJ(scene.model.tree, joint).p.cwiseAbs().maxCoeff());
   }
-  node.pool.know_ulps(slot, coordinate);
-  return slot;
+  return coordinate;
+}
+
+ContactProperties properties_of(const Scene& scene, int slot, const Node& node) {
+  const Pair& pair = node.pool[slot];
+  if (pair.is_stop()) return scene.model.contact_properties(node.pool.number(slot));
+  return scene.model.materials.between(pair.a, pair.b);
 }
 
 double most_touch(const Scene& scene, const Node& node) {
@@ -82,25 +86,28 @@ void place_frames(const Scene& scene, Node& node) {
 
 namespace {
 
-void put(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
+void put(const Scene& scene, double t, const VecX& q, const VecX& p, Packed* placed, Node& node) {
   node.t = t;
   node.q = q;
   node.p = p;
   node.has_factors = false;
   // else nobody asks for them
-  if (scene.model.has_gaps() || !node.dry.empty() || node.loops.some) place_frames(scene, node);
+  if (!scene.model.has_gaps() && node.dry.empty() && !node.loops.some) return;
+  if (placed == nullptr) return place_frames(scene, node);
+  std::swap(node.w, *placed);
+  copy_poses(scene.model.tree, scene.model.packed, node.w, node.kin);
 }
 
 }  // namespace
 
 void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node& node) {
-  put(scene, t, q, p, node);
+  put(scene, t, q, p, nullptr, node);
   node.clearances.forget();
 }
 
 void move_node(const Scene& scene, double t, const VecX& q, const VecX& p,
-               const std::vector<double>& motion, Node& node) {
-  put(scene, t, q, p, node);
+               const std::vector<double>& motion, Packed* placed, Node& node) {
+  put(scene, t, q, p, placed, node);
   node.clearances.go(motion);
 }
 

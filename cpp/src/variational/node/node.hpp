@@ -98,12 +98,15 @@ Contact::Motion motion_of(double u, double epsilon_u);
 void write_contact(const Scene& scene, double speed, int slot, const Pair& as, const Gap& g,
                    const Node& node, VecX& dense, Contact& c);
 
+/// Restitution and friction of a pair.
+ContactProperties properties_of(const Scene& scene, int slot, const Node& node);
+
 /// M and v = M^-1 p at the node; loops take out of p and v what would open them.
 /// @return false where the mass matrix is singular, or the rank of the loops changes
 bool set_velocity_at_node(const Scene& scene, Node& node);
 
-/// The slot of a pair, whose touch knows where its bodies are.
-int slot_at(const Scene& scene, int number, const Node& node);
+/// [m] Of the origins of the pair's two bodies, for PairPool::know_ulps.
+double largest_coordinate(const Scene& scene, const Pair& pair, const Node& node);
 
 /// [m] No pair's touch is larger at the node.
 double most_touch(const Scene& scene, const Node& node);
@@ -116,8 +119,9 @@ void place_node(const Scene& scene, double t, const VecX& q, const VecX& p, Node
 
 /// Puts the node at the end of an arc that starts where it is.
 /// @param motion (shapes) [m] how far any point of a shape moves in it, at most
+/// @param placed frames that `place` put there, to be exchanged for others; nullptr: there are none
 void move_node(const Scene& scene, double t, const VecX& q, const VecX& p,
-               const std::vector<double>& motion, Node& node);
+               const std::vector<double>& motion, Packed* placed, Node& node);
 
 /// Writes contacts (motion included), and v where pairs are near.
 /// @return false where the mass matrix is singular.

@@ -222,7 +222,7 @@ void Stepper::Impl::fly_one_arc(double left, const Launch* launch) {
 
 // Ends the arc at a node.
 void Stepper::Impl::end_arc(double t) {
-  if (!finish(scene, t, flight.work, flight.broad.motion, node, kick))
+  if (!finish(scene, t, flight.broad.motion, flight.work, node, kick))
     fail(FlightOutcome::not_converged);
   if (!node.p.allFinite()) fail(FlightOutcome::not_converged);
   remember(kick, memory);
