@@ -3974,9 +3974,15 @@ class ModelGradient:
         By the joints' linear springs.
     damping, armature : numpy.ndarray, shape (n_v,)
         By the joints' own.
+    actuators : numpy.ndarray, shape (n_u, 4)
+        By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
+        with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
+        bias_l -kp: the first less the third; by its kd: less the last.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    @property
+    def actuators(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def armature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property

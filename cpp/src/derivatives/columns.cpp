@@ -5,7 +5,7 @@ namespace {
 
 using Kind = StepProgram::Kind;
 
-/// Of fewer coordinates than this a matrix costs as much as its columns one by one.
+/// Of fewer coordinates than this a matrix saves a microsecond at most over columns one by one.
 constexpr Eigen::Index few = 4;
 
 Eigen::Index count_of(const ModelData& model, Input input, const StepProgram& program) {

@@ -1,5 +1,8 @@
 #include "derivatives/parameters.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace saltus {
 namespace {
 
@@ -68,9 +71,39 @@ void add_own_gradient(const ModelData& model, const Packed& w, const VecX& x, co
 
 }  // namespace
 
+namespace {
+
+/// The actuator pushes all that it can, or its joint bears: nothing of its own changes that.
+bool is_limited(const ForceModel& forces, const ForceValues& at, int k) {
+  const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
+  if (std::abs(at.effort[k]) >= a.effort) return true;
+  const int c = a.gears.front().velocity;
+  return a.is_single() && forces.effort.size() > 0 && std::abs(at.single[c]) >= forces.effort[c];
+}
+
+void add_actuators(const ForceModel& forces, const ArcDerivative& arc, const VecX& Q,
+                   ParameterGradient& to) {
+  for (int k = 0; k < forces.n_u(); ++k) {
+    if (is_limited(forces, arc.s.forces, k)) continue;
+    const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
+    const VecX& control = arc.s.input->control;
+    const double u = std::clamp(control.size() > 0 ? control[k] : 0, a.lower, a.upper);
+    double push = 0, l = 0, rate = 0;
+    for (const Gear& gear : a.gears) {
+      push += gear.ratio * Q[gear.velocity];
+      l += gear.ratio * arc.s.q[gear.coordinate];
+      rate += gear.ratio * arc.v[gear.velocity];
+    }
+    to.actuators.row(k) += push * Eigen::RowVector4d(u, 1, l, rate);
+  }
+}
+
+}  // namespace
+
 void ParameterGradient::start(const ModelData& model) {
   body.setZero(model.tree.joints(), 10);
   for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
+  actuators.setZero(model.forces.n_u(), 4);
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
 }
 
@@ -104,6 +137,7 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
                       ParameterGradient& to) {
   add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
   to.damping -= arc.v.cwiseProduct(Q);
+  add_actuators(model.forces, arc, Q, to);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);

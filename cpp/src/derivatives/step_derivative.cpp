@@ -167,7 +167,12 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector) {
 StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient& by_model) {
   StepDirection out = impl_->pull(covector, true);
   const ParameterGradient& all = impl_->parameters;
-  by_model = {by_link(impl_->model, all), all.stiffness, all.rest, all.damping, all.armature};
+  by_model = {by_link(impl_->model, all),
+              all.stiffness,
+              all.rest,
+              all.damping,
+              all.armature,
+              all.actuators};
   return out;
 }
 

@@ -73,6 +73,7 @@ struct Backwards {
     to.model.rest += by_model.rest;
     to.model.damping += by_model.damping;
     to.model.armature += by_model.armature;
+    to.model.actuators += by_model.actuators;
     hat.q = std::move(back.q);
     hat.p = std::move(back.p);
   }
@@ -101,6 +102,7 @@ RunGradient zero_of(const Model& model, Eigen::Index steps) {
   ModelGradient& g = out.model;
   g.inertia.setZero(static_cast<Eigen::Index>(model->links.size()), 10);
   for (VecX* each : {&g.stiffness, &g.rest, &g.damping, &g.armature}) each->setZero(n);
+  g.actuators.setZero(model->forces.n_u(), 4);
   return out;
 }
 

@@ -33,6 +33,8 @@ class RunGradient:
         By the links' own inertial parameters, as in `ModelGradient`.
     stiffness, rest, damping, armature : numpy.ndarray, shape (n_v,)
         By the joints' own, likewise.
+    actuators : numpy.ndarray, shape (n_u, 4)
+        By what the actuators have, likewise.
     """
 
     q: Array
@@ -45,6 +47,7 @@ class RunGradient:
     rest: Array
     damping: Array
     armature: Array
+    actuators: Array
 
 
 def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
@@ -97,5 +100,5 @@ def gradient(run: Recording, q_hat: npt.ArrayLike, p_hat: npt.ArrayLike) -> RunG
     q, p, control, qfrc, h, of_model = adjoint(
         run.model, run.options, run.t, run.q, run.p, run.control, by_q, by_p
     )
-    names = ("inertia", "stiffness", "rest", "damping", "armature")
+    names = ("inertia", "stiffness", "rest", "damping", "armature", "actuators")
     return RunGradient(q, p, control, qfrc, h, **{name: getattr(of_model, name) for name in names})
