@@ -169,6 +169,8 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/unlocated.cpp
   # derivatives
   cpp/src/derivatives/arc_derivative.cpp
+  cpp/src/derivatives/columns.cpp
+  cpp/src/derivatives/dense_arc.cpp
   cpp/src/derivatives/energy_derivative.cpp
   cpp/src/derivatives/flown_arc.cpp
   cpp/src/derivatives/frame_derivative.cpp
@@ -178,10 +180,12 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/kick_derivative.cpp
   cpp/src/derivatives/parameters.cpp
   cpp/src/derivatives/program.cpp
+  cpp/src/derivatives/small_products.cpp
   cpp/src/derivatives/step_derivative.cpp
   cpp/src/derivatives/verdict.cpp
   cpp/src/derivatives/walk.cpp
   # rollout
+  cpp/src/rollout/adjoint.cpp
   cpp/src/rollout/control.cpp
   cpp/src/rollout/batch.cpp
   cpp/src/rollout/batch_trajectory.cpp

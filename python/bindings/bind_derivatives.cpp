@@ -154,6 +154,7 @@ void bind_derivative_types(py::module_& m) {
       .def_readonly("rest", &G::rest)
       .def_readonly("damping", &G::damping)
       .def_readonly("armature", &G::armature)
+      .def_readonly("actuators", &G::actuators)
       .def("__repr__", [](const G& g) {
         return "ModelGradient(links=" + std::to_string(g.inertia.rows()) +
                ", n_v=" + std::to_string(g.damping.size()) + ")";

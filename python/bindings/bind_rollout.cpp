@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "control.hpp"
 #include "progress.hpp"
+#include "saltus/rollout/adjoint.hpp"
 #include "saltus/rollout/simulate.hpp"
 #include "structured.hpp"
 
@@ -71,6 +72,47 @@ void run(Trajectory& out, const State& start, double duration, const StepOptions
   options.control_every = control_every;
   const py::gil_scoped_release release;
   simulate(model, start, duration, options, out);
+}
+
+constexpr auto adjoint_doc = R"(The gradient of a cost of a run, as `Trajectory.gradient` gives it.
+
+Parameters
+----------
+model : Model
+options : StepOptions
+t : numpy.ndarray, shape (rows,)
+    [s] a row for each step, and one more.
+q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
+q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
+    The cost by each row's state.
+
+Returns
+-------
+tuple
+    By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by h, and a
+    ModelGradient.
+
+Raises
+------
+ModelError
+    Where shapes do not fit, and where a step has no derivative: which, and why.
+StepError, JammedError
+    As `Stepper.advance`.
+)";
+
+using Gradient = std::tuple<VecX, VecX, MatX, MatX, double, ModelGradient>;
+
+Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& t, const MatX& q,
+                    const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat) {
+  const RunRows rows{t, q, p, control};
+  const auto goes_on = [] {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
+  const py::gil_scoped_release release;
+  RunGradient g = adjoint(model, options, rows, q_hat, p_hat, goes_on);
+  return {std::move(g.q),    std::move(g.p), std::move(g.control), std::move(g.qfrc), g.h,
+          std::move(g.model)};
 }
 
 template <auto field>
@@ -169,6 +211,8 @@ void bind_rollout(py::module_& m) {
                ", shadow=" + show(e.shadow) + ")";
       });
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
+  m.def("adjoint", &adjoint_of, adjoint_doc, py::arg("model"), py::arg("options"), py::arg("t"),
+        py::arg("q"), py::arg("p"), py::arg("control"), py::arg("q_hat"), py::arg("p_hat"));
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
         py::arg("record_every") = 1, py::arg("record_contacts") = false,

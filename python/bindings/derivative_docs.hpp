@@ -1,6 +1,11 @@
 // Docstrings of derivatives of a step.
 #pragma once
 
+/// Of a product forwards.
+#define SALTUS_RETURNS_DIRECTION                             \
+  "Returns\n-------\ntuple of numpy.ndarray, shape (n_v,)\n" \
+  "    Of q, along velocities, and of p.\n"
+
 namespace saltus::bindings {
 
 constexpr auto smoothness_doc = R"(What the derivative of a step is worth.
@@ -100,11 +105,7 @@ dh : float
 drestitution : array_like, shape (impacts,), optional
     Of each impact's restitution.
 
-Returns
--------
-tuple of numpy.ndarray, shape (n_v,)
-    Of q, along velocities, and of p.
-
+)" SALTUS_RETURNS_DIRECTION R"(
 Raises
 ------
 ModelError
@@ -143,6 +144,10 @@ stiffness, rest : numpy.ndarray, shape (n_v,)
     By the joints' linear springs.
 damping, armature : numpy.ndarray, shape (n_v,)
     By the joints' own.
+actuators : numpy.ndarray, shape (n_u, 4)
+    By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
+    with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
+    bias_l -kp: the first less the third; by its kd: less the last.
 )";
 
 constexpr auto model_vjp_doc =
@@ -175,11 +180,7 @@ Parameters
 dq, dp, du, dqfrc, dh, drestitution
     As in `jvp`.
 
-Returns
--------
-tuple of numpy.ndarray, shape (n_v,)
-    Of q, along velocities, and of p.
-
+)" SALTUS_RETURNS_DIRECTION R"(
 Raises
 ------
 ModelError

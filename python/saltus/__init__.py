@@ -13,7 +13,7 @@ Units are SI. Coordinates have shape `(n_q,)`, velocities and momenta `(n_v,)`, 
 `law="shadow_energy"`.
 """
 
-from saltus import optimize, scenes
+from saltus import autodiff, optimize, scenes
 from saltus._core import (
     AdjacentLinks,
     At,
@@ -189,6 +189,7 @@ __all__ = [
     "Visual",
     "Wrench",
     "__version__",
+    "autodiff",
     "check_derivatives",
     "classify_impact",
     "close_loops",

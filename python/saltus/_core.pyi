@@ -78,6 +78,7 @@ __all__: list[str] = [
     "TriangleMesh",
     "Visual",
     "Wrench",
+    "adjoint",
     "check_derivatives",
     "classify_impact",
     "close_loops",
@@ -3973,9 +3974,15 @@ class ModelGradient:
         By the joints' linear springs.
     damping, armature : numpy.ndarray, shape (n_v,)
         By the joints' own.
+    actuators : numpy.ndarray, shape (n_u, 4)
+        By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
+        with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
+        bias_l -kp: the first less the third; by its kd: less the last.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    @property
+    def actuators(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def armature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
@@ -4593,6 +4600,50 @@ class BatchTrajectory:
         """
         [J] shape (runs, rows, n_u + 3)
         """
+
+def adjoint(
+    model: Model,
+    options: StepOptions,
+    t: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    p: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    q_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    p_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+) -> tuple[
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
+    float,
+    ModelGradient,
+]:
+    """
+    The gradient of a cost of a run, as `Trajectory.gradient` gives it.
+
+    Parameters
+    ----------
+    model : Model
+    options : StepOptions
+    t : numpy.ndarray, shape (rows,)
+        [s] a row for each step, and one more.
+    q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
+    q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
+        The cost by each row's state.
+
+    Returns
+    -------
+    tuple
+        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by h, and a
+        ModelGradient.
+
+    Raises
+    ------
+    ModelError
+        Where shapes do not fit, and where a step has no derivative: which, and why.
+    StepError, JammedError
+        As `Stepper.advance`.
+    """
 
 def check_derivatives(
     force: str | collections.abc.Callable[[ForceMoment], typing.Any],

@@ -6,12 +6,25 @@ import argparse
 import json
 from pathlib import Path
 
-from tests.bench import batch, collisions, contact, cradle, flops, page, peers, scenes, table, trep
+from tests.bench import (
+    batch,
+    collisions,
+    contact,
+    cradle,
+    derivatives,
+    flops,
+    page,
+    peers,
+    scenes,
+    table,
+    trep,
+)
 from tests.bench.kernels import Programs, machine, versions
 
 # Pinocchio's headers take half a minute to compile.
 QUICK_PROGRAMS = (
     "bench_collision",
+    "bench_derivatives",
     "bench_kernels",
     "bench_impacts",
     "bench_peaks",
@@ -80,6 +93,7 @@ def measure(quick: bool, seconds: float, rounds: int) -> dict:
         "rows": rows,
         "growth": flops.growth(rows),
         "impacts": impacts,
+        "derivatives": derivatives.measure(programs, quick=quick, seconds=seconds / 4),
         "contact": contact.measure(quick=quick),
         "collisions": collisions.measure(
             programs,

@@ -75,6 +75,11 @@ class Programs:
         (times,) = self._run("bench_pinocchio", scene, seconds)
         return {f"pinocchio_{name}": time for name, time in times.items() if name != "n"}
 
+    def derivatives(self, scene: Scene, seconds: float) -> dict:
+        """Return the times of a step and of its derivatives."""
+        (row,) = self._run("bench_derivatives", scene, seconds)
+        return row
+
     def impacts(self, scene: Scene) -> list[dict]:
         """Return rows of what steps with impacts cost, one a step length."""
         rows = self._run("bench_impacts", scene, 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.bench import collisions, contact, picture, table
+from tests.bench import collisions, contact, derivatives, picture, table
 
 PAGE = """\
 # Speed
@@ -50,6 +50,10 @@ has an energy error of 0, and its middle ball rests. [More engines](compare.md) 
 
 {emblem}
 
+## Derivatives of steps
+
+{derivatives}
+
 ## Where contact is
 
 What rests costs about as much as with a soft engine; a heap that falls costs many times more,
@@ -86,6 +90,7 @@ def markdown(results: dict, image: str | None) -> str:
         ratios=table.ratios(results),
         growth=table.growth(results["growth"]) or "(not measured)",
         impacts=table.impacts(results["impacts"]),
+        derivatives=derivatives.markdown(results.get("derivatives")),
         contact=contact.markdown(results.get("contact")),
         collisions=collisions.markdown(results.get("collisions")),
         batch=table.batch(results["batch"]) or "(not measured)",

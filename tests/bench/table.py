@@ -41,9 +41,6 @@ RATIOS = {
     "/ Drake": lambda row, _: number(ratio(row, "step", "drake_step")),
     "/ DART": lambda row, _: number(ratio(row, "step", "dart_step")),
     "10 ms step / trep": lambda row, _: number(ratio(row, "step_10ms", "trep_step_10ms"), 2),
-    "step's derivatives / ABA": lambda row, _: number(
-        ratio(row, "step_derivatives", "pinocchio_aba_derivatives")
-    ),
     "heap": lambda row, _: number(row.get("allocations")),
 }
 
@@ -56,7 +53,6 @@ TIMES = {  # what the ratios are made of, and more
     "newton": "one Newton iteration",
     "step": "step",
     "step_10ms": "10 ms step",
-    "step_derivatives": "step's derivatives",
     "mujoco_step": "mj_step Euler",
     "mujoco_implicit_step": "mj_step implicit",
     "drake_step": "Drake",

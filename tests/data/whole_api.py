@@ -201,6 +201,8 @@ def derivatives() -> None:
     gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
     assert gradient.q.shape == (1,)
     assert saltus.optimize.Quadratic is not None
+    assert callable(saltus.autodiff.jax_rollout)
+    assert callable(saltus.autodiff.torch_rollout)
 
 
 def main() -> None:

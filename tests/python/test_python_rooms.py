@@ -20,7 +20,8 @@ ROOMS["plots"] = {"_core", "records"}
 ROOMS["view"] = {"_core", "records"}
 ROOMS["runs"] = {"_core", "records", "plots", "view"}
 ROOMS["optimize"] = {"_core", "runs"}
-ROOMS["saltus"] = {"_core", "paths", "scenes", "urdf", "records", "runs", "optimize"}
+ROOMS["autodiff"] = {"_core"}
+ROOMS["saltus"] = {"_core", "paths", "scenes", "urdf", "records", "runs", "optimize", "autodiff"}
 ROOMS["cli"] = {"saltus", "records", "plots", "view"}
 ROOMS["__main__"] = {"cli"}
 ROOMS["plots_cradle"] = ROOMS["plots_impacts"] = ROOMS["plots_pairs"] = {"plots"}  # old paths
@@ -81,6 +82,7 @@ ORDER = {
         "reach",
         "shooting",
     ],
+    "autodiff": ["rollout", "with_jax", "with_torch"],
     "cli": ["commands", "looking", "main"],
 }
 

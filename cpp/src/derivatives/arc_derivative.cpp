@@ -88,21 +88,28 @@ void set_energy(const ModelData& model, const Tape& tape, ArcDerivative& out) {
   gather(model.tree, model.packed, out.s.w.first, 0, out.energy_v);
 }
 
+/// @param keeps_factors of an evaluation before at the same q and tau = 0, whatever its v
 void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q, const VecX& p,
-              ArcDerivative& out) {
+              bool keeps_factors, ArcDerivative& out) {
   ArcScratch& s = out.s;
   s.input = &tape.input;
   s.has_forces = model.forces.acts() || tape.input.acts();
   const ArcProblem problem{q, p, out.tau, nullptr, 0, t, nullptr};
   const double residual = momentum_residual(model, problem, out.v, s);
   set_second_partials(model, s);
-  const bool is_regular = factorize(model.tree, model.packed, s.w, out.tau, s.J);
+  take_generators(model.tree, model.packed, s.w, out.product);
+  const bool is_regular = keeps_factors || factorize(model.tree, model.packed, s.w, out.tau, s.J);
   if (!std::isfinite(residual) || !is_regular) {
     throw StepError("the arc at t = " + std::to_string(t) + " s has no derivative: it is singular",
                     t, residual, 0);
   }
   if (s.has_forces) check_forces(model, tape.input, s);
   out.force = s.L_q;
+}
+
+/// What an arc needs beyond its evaluation.
+void set_slopes(const ModelData& model, const Tape& tape, ArcDerivative& out) {
+  ArcScratch& s = out.s;
   set_turns(model, out);
   set_momentum_rate(model.tree, model.packed, s.w, out.tau, s.products, s.x, out.R);
   take_shift_out(model, out);
@@ -125,15 +132,16 @@ void set_arc_derivative(const ModelData& model, const Tape& tape, const TapeArc&
   out.tau = arc.tau;
   out.v = arc.v;
   out.s.shift = arc.shift;
-  evaluate(model, tape, arc.t, arc.q, arc.p, out);
+  evaluate(model, tape, arc.t, arc.q, arc.p, false, out);
+  set_slopes(model, tape, out);
 }
 
 void set_node_derivative(const ModelData& model, const Tape& tape, double t, const VecX& q,
-                         const VecX& v, ArcDerivative& out) {
+                         const VecX& v, ArcDerivative& out, bool is_same_place) {
   out.tau = 0;
   out.v = v;
   out.s.shift.resize(0);
-  evaluate(model, tape, t, q, v, out);
+  evaluate(model, tape, t, q, v, is_same_place, out);
 }
 
 void push_forward(const ModelData& model, ArcDerivative& arc, const VecX& dQ, double dtau,

@@ -58,9 +58,11 @@ struct ArcDerivative {
 void set_arc_derivative(const ModelData& model, const Tape& tape, const TapeArc& arc,
                         ArcDerivative& out);
 
-/// An arc of no duration from (q, v): its derivative by tau is the motion (v, f), its J is M.
+/// An arc of no duration from (q, v), of which `force`, the factors of M and products are written:
+/// its derivative by tau is the motion (v, f).
+/// @param is_same_place it was one at this q before, whose factors stay
 void set_node_derivative(const ModelData& model, const Tape& tape, double t, const VecX& q,
-                         const VecX& v, ArcDerivative& out);
+                         const VecX& v, ArcDerivative& out, bool is_same_place = false);
 
 /// z <- the direction of the arc's end. @param dQ (n_v) of the forces; @param dtau [s]
 void push_forward(const ModelData& model, ArcDerivative& arc, const VecX& dQ, double dtau,

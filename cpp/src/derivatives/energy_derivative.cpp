@@ -78,6 +78,7 @@ void set_shadow_gradient(const ModelData& model, const VecX& q, const VecX& p, d
   shadow_gradient(tree, packed, w, free.a, shadow);
   VecX lifted = shadow.kappa_v;
   solve(tree, packed, M, lifted);
+  take_generators(tree, packed, w, product);
   multiply_by_transposed(tree, packed, w, VecX::Zero(tree.n_v), lifted, product);
   const double c = h * h / 24;
   out.q.resize(tree.n_v);

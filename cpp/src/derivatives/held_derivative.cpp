@@ -221,6 +221,7 @@ KickContact contact_of(const ModelData& model, const TapeRow& row) {
 }
 
 void set_flown_arc(const ModelData& model, const Tape& tape, const TapeArc& told, FlownArc& out) {
+  out.has_dense = false;
   set_arc_derivative(model, tape, told, out.arc);
   set_match(model, tape, told, out.arc, out.match);
   set_held_arc(model, told, out);

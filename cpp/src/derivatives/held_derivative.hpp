@@ -45,6 +45,8 @@ struct FlownArc {
   };
   std::vector<Source> source;
   std::unique_ptr<NodeDerivative> node;  ///< of the kick, where one has been
+  MatX dense;              ///< (2 n_v, 2 n_v) of a plain arc, where it has been asked for
+  bool has_dense = false;  ///< then
 };
 
 /// Writes all of `out`. @throws ModelError as set_arc_derivative

@@ -73,9 +73,9 @@ void set_node(const ModelData& model, const Tape& tape, const TapeImpact& impact
 double closing_of(const ModelData& model, const GapDerivative& gap, NodeDerivative& node) {
   ArcDerivative& motion = node.motion;
   // M a = f - L_vq v
-  multiply_by_hessian(model.tree, model.packed, motion.s.w, motion.v, node.zero, node.product);
+  multiply_by_hessian(model.tree, model.packed, motion.s.w, motion.v, node.zero, motion.product);
   VecX& a = motion.dv;
-  a = motion.force - node.product.by_v;
+  a = motion.force - motion.product.by_v;
   solve_scaled(model.tree, model.packed, motion.s.J, a);
   motion.y.setZero();
   add_gradient_change(gap, motion.v, 1, motion.y);
@@ -86,7 +86,7 @@ void set_flow(const ModelData& model, const Tape& tape, const VecX& p, NodeDeriv
               Tangent& flow) {
   node.v = p;
   solve_scaled(model.tree, model.packed, node.motion.s.J, node.v);
-  set_node_derivative(model, tape, node.t, node.q, node.v, node.motion);
+  set_node_derivative(model, tape, node.t, node.q, node.v, node.motion, true);
   flow.q = node.v;
   flow.p = node.motion.force;
 }
@@ -118,6 +118,7 @@ void set_impulse(const ModelData& model, const Tape& tape, int contact, VecX& p,
   out.slope = out.u;
   evaluate_at_compression(model, out, node);
   second_pass(model.packed, node.w);
+  take_generators(model.tree, model.packed, node.w, node.product);
   multiply_by_transposed(model.tree, model.packed, node.w, node.zero, out.w, node.product);
   const double factor = -(1 + e) / out.G;
   out.of_p = factor * out.w;

@@ -1,5 +1,8 @@
 #include "derivatives/parameters.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace saltus {
 namespace {
 
@@ -38,24 +41,19 @@ Ten contract(const Vec6& V, const Vec6& dV, const Vec6& turn, const Vec3& g) {
   return out;
 }
 
-/// The ten parameters of a link about its joint's origin, of unit changes about its own: columns.
-Eigen::Matrix<double, 10, 10> moved(const Pose& X) {
-  const auto inertia = [](const Eigen::Matrix<double, 10, 1>& x) {
-    Mat3 I;
-    I << x[4], x[5], x[6], x[5], x[7], x[8], x[6], x[8], x[9];
-    return I;
-  };
-  Eigen::Matrix<double, 10, 10> out;
-  for (int k = 0; k < 10; ++k) {
-    const Ten unit = Ten::Unit(k);
-    const double m = unit[0];
-    const Vec3 h = X.R * unit.segment<3>(1), p = X.p;
-    // I_J = R I R^T + m (p.p 1 - p p^T) + 2 h.p 1 - h p^T - p h^T
-    const Mat3 I = X.R * inertia(unit) * X.R.transpose() +
-                   (m * p.dot(p) + 2 * h.dot(p)) * Mat3::Identity() - m * p * p.transpose() -
-                   h * p.transpose() - p * h.transpose();
-    out.col(k) << m, h + m * p, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2);
-  }
+/// A covector of the ten parameters about a joint's origin as one of those about a link's, whose
+/// frame is placed by X. With h' = R h the parameters are m, h' + m p and
+/// R I R^T + m (p.p 1 - p p^T) + 2 h'.p 1 - h' p^T - p h'^T.
+Ten of_link(const Ten& of_joint, const Pose& X) {
+  const auto at = [&](int k) { return of_joint[k]; };
+  Mat3 G;  // the covector of I, of which off the diagonal each number stands for two
+  G << at(4), at(5) / 2, at(6) / 2, at(5) / 2, at(7), at(8) / 2, at(6) / 2, at(8) / 2, at(9);
+  const Vec3 p = X.p, Gp = G * p, of_h = of_joint.segment<3>(1) + 2 * (G.trace() * p - Gp);
+  const Mat3 I = X.R.transpose() * G * X.R;
+  Ten out;
+  out[0] = at(0) + of_joint.segment<3>(1).dot(p) + G.trace() * p.dot(p) - p.dot(Gp);
+  out.segment<3>(1) = X.R.transpose() * of_h;
+  out.tail<6>() << I(0, 0), 2 * I(0, 1), 2 * I(0, 2), I(1, 1), 2 * I(1, 2), I(2, 2);
   return out;
 }
 
@@ -73,9 +71,39 @@ void add_own_gradient(const ModelData& model, const Packed& w, const VecX& x, co
 
 }  // namespace
 
+namespace {
+
+/// The actuator pushes all that it can, or its joint bears: nothing of its own changes that.
+bool is_limited(const ForceModel& forces, const ForceValues& at, int k) {
+  const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
+  if (std::abs(at.effort[k]) >= a.effort) return true;
+  const int c = a.gears.front().velocity;
+  return a.is_single() && forces.effort.size() > 0 && std::abs(at.single[c]) >= forces.effort[c];
+}
+
+void add_actuators(const ForceModel& forces, const ArcDerivative& arc, const VecX& Q,
+                   ParameterGradient& to) {
+  for (int k = 0; k < forces.n_u(); ++k) {
+    if (is_limited(forces, arc.s.forces, k)) continue;
+    const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
+    const VecX& control = arc.s.input->control;
+    const double u = std::clamp(control.size() > 0 ? control[k] : 0, a.lower, a.upper);
+    double push = 0, l = 0, rate = 0;
+    for (const Gear& gear : a.gears) {
+      push += gear.ratio * Q[gear.velocity];
+      l += gear.ratio * arc.s.q[gear.coordinate];
+      rate += gear.ratio * arc.v[gear.velocity];
+    }
+    to.actuators.row(k) += push * Eigen::RowVector4d(u, 1, l, rate);
+  }
+}
+
+}  // namespace
+
 void ParameterGradient::start(const ModelData& model) {
   body.setZero(model.tree.joints(), 10);
   for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
+  actuators.setZero(model.forces.n_u(), 4);
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
 }
 
@@ -109,6 +137,7 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
                       ParameterGradient& to) {
   add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
   to.damping -= arc.v.cwiseProduct(Q);
+  add_actuators(model.forces, arc, Q, to);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);
@@ -118,7 +147,7 @@ MatX by_link(const ModelData& model, const ParameterGradient& gradient) {
   MatX out = MatX::Zero(static_cast<Eigen::Index>(model.links.size()), 10);
   for (const Link& link : model.links) {
     if (link.joint < 0) continue;
-    out.row(link.index) = gradient.body.row(link.joint) * moved(link.X_JL);
+    out.row(link.index) = of_link(gradient.body.row(link.joint).transpose(), link.X_JL).transpose();
   }
   return out;
 }

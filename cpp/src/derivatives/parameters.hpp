@@ -1,4 +1,4 @@
-// Gradients by what a model is made of: inertias of links, springs, damping, armature.
+// Gradients by what a model is made of: inertias of links, springs, damping, armature, actuators.
 //
 // L is linear in each body's ten inertial parameters (m, h = m c, I about the joint's origin). In a
 // joint's frame, with its twist (v, w) and a change of q along x and of v along y,
@@ -17,6 +17,7 @@ namespace saltus {
 struct ParameterGradient {
   MatX body;                                ///< (joints, 10): m, h, I as xx xy xz yy yz zz
   VecX stiffness, rest, damping, armature;  ///< (n_v)
+  MatX actuators;                           ///< (n_u, 4): gain, bias, bias_l, bias_v
 
   std::vector<Vec6> twist, turn;  ///< (joints) scratch
 

@@ -72,6 +72,10 @@ void set_impulses(const ModelData& model, const Tape& tape, const std::vector<in
 /// Directions by the order of the impulses, or by that of trajectories along z.
 enum class Order { own, of_direction };
 
+/// z <- after a piece. @param left [s] of the step, by what the pieces before have changed it
+void push_piece(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
+                const StepProgram::Piece& piece, StepProgram& program, Tangent& z, double& left);
+
 /// What is asked along: empty vectors are 0.
 void push_program(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
                   StepProgram& program, Tangent& z);

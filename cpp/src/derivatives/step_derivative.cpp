@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "derivatives/columns.hpp"
 #include "derivatives/verdict.hpp"
 
 namespace saltus {
@@ -10,7 +11,8 @@ struct StepDerivatives::Impl {
   Impl(const Model& with, const StepOptions& with_options)
       : shared(with_options.collisions ? with : with.without_collisions()),
         options(with_options),
-        model(*shared) {}
+        model(*shared),
+        dense(model) {}
 
   void check(const StepDirection& d) const;
   void need_step() const;
@@ -19,8 +21,7 @@ struct StepDerivatives::Impl {
   void need_orders() const;
   Tangent push(const StepDirection& by, Order order = Order::own);
   StepDirection pull(const StateDirection& covector, bool with_parameters);
-  void set_columns(VecX StepDirection::* input, Eigen::Index count, MatX& out);
-  void set_A(MatX& A);
+  void set_columns(Input input, MatX& out);
   double spread(const MatX& A, std::size_t impact, Smoothness& verdict);
   void judge(StepDerivative& out);
 
@@ -29,6 +30,7 @@ struct StepDerivatives::Impl {
   const ModelData& model;
   Tape tape;
   StepProgram program;
+  DenseScratch dense;
   ParameterGradient parameters;
   bool is_set = false;
 };
@@ -63,27 +65,8 @@ Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
   return z;
 }
 
-void StepDerivatives::Impl::set_columns(VecX StepDirection::* input, Eigen::Index count,
-                                        MatX& out) {
-  const Eigen::Index n = model.tree.n_v;
-  out.resize(2 * n, count);
-  StepDirection by;
-  by.*input = VecX::Zero(count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    (by.*input)[j] = 1;
-    const Tangent z = push(by);
-    out.col(j) << z.q, z.p;
-    (by.*input)[j] = 0;
-  }
-}
-
-void StepDerivatives::Impl::set_A(MatX& A) {
-  const Eigen::Index n = model.tree.n_v;
-  MatX by_q, by_p;
-  set_columns(&StepDirection::q, n, by_q);
-  set_columns(&StepDirection::p, n, by_p);
-  A.resize(2 * n, 2 * n);
-  A << by_q, by_p;
+void StepDerivatives::Impl::set_columns(Input input, MatX& out) {
+  push_columns(model, tape, input, program, dense, out);
 }
 
 /// The largest difference of A by other orders of the impact, relative to its largest entry.
@@ -103,7 +86,7 @@ double StepDerivatives::Impl::spread(const MatX& A, std::size_t index, Smoothnes
       continue;
     }
     set_impulses(model, tape, orders[k].contacts, impact);
-    set_A(other);
+    set_columns(Input::state, other);
     out = std::max(out, (other - A).cwiseAbs().maxCoeff() / A.cwiseAbs().maxCoeff());
   }
   if (orders.size() > 1) set_impulses(model, tape, orders[0].contacts, impact);
@@ -184,21 +167,26 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector) {
 StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient& by_model) {
   StepDirection out = impl_->pull(covector, true);
   const ParameterGradient& all = impl_->parameters;
-  by_model = {by_link(impl_->model, all), all.stiffness, all.rest, all.damping, all.armature};
+  by_model = {by_link(impl_->model, all),
+              all.stiffness,
+              all.rest,
+              all.damping,
+              all.armature,
+              all.actuators};
   return out;
 }
 
 void StepDerivatives::derivative(MatX& A, MatX& B) {
   impl_->need_step();
-  impl_->set_A(A);
-  impl_->set_columns(&StepDirection::control, impl_->model.forces.n_u(), B);
+  impl_->set_columns(Input::state, A);
+  impl_->set_columns(Input::control, B);
 }
 
 StepDerivative StepDerivatives::derivative() {
   StepDerivative out;
   derivative(out.A, out.B);
-  impl_->set_columns(&StepDirection::qfrc, impl_->model.tree.n_v, out.qfrc);
-  impl_->set_columns(&StepDirection::restitution, impl_->program.n_impacts, out.restitution);
+  impl_->set_columns(Input::qfrc, out.qfrc);
+  impl_->set_columns(Input::restitution, out.restitution);
   if (impl_->program.tells_time) {
     StepDirection by;
     by.h = 1;
@@ -226,7 +214,7 @@ std::vector<Selection> StepDerivatives::selections(int most) {
       }
       if (is_same_outcome(order.p, orders[0].p)) {
         set_impulses(impl_->model, impl_->tape, order.contacts, impact);
-        impl_->set_A(selection.A);
+        impl_->set_columns(Input::state, selection.A);
       }
       out.push_back(std::move(selection));
     }

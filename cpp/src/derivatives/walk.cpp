@@ -23,6 +23,12 @@ void shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, doubl
 
 double entry(const VecX& x, int k) { return x.size() > 0 ? x[k] : 0; }
 
+/// [s] What an arc's duration changes by, where the step's does by h and `left` of it is left.
+double duration_of(const StepProgram::Piece& piece, double h, double left) {
+  if (piece.kind == Kind::rest) return left;
+  return piece.kind == Kind::part ? piece.part * h : 0;
+}
+
 void push_impact(double de, ImpactPieces& impact, Tangent& z, double& left) {
   if (impact.is_together) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
@@ -78,6 +84,36 @@ void push_along(const ModelData& model, const Tape& tape, const TapeImpact& told
 
 }  // namespace
 
+void push_piece(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
+                const StepProgram::Piece& piece, StepProgram& program, Tangent& z, double& left) {
+  const auto k = static_cast<std::size_t>(piece.index);
+  if (piece.kind == Kind::impact) {
+    ImpactPieces& impact = *program.impacts[k];
+    const double de = entry(by.restitution, piece.index);
+    const bool has_orders = impact.node.gaps.size() > 1 && !impact.is_together;
+    if (order == Order::of_direction && has_orders && !impact.rubbing.empty()) {
+      throw ModelError("directional has no impacts with friction on several contacts yet");
+    }
+    if (order == Order::of_direction && has_orders) {
+      push_along(model, tape, tape.impacts[k], de, impact, z, left);
+    } else {
+      push_impact(de, impact, z, left);
+    }
+    return;
+  }
+  if (piece.kind == Kind::pass) {
+    const Passing& passing = program.passings[k];
+    shift(passing.arrival, passing.gap.n, passing.slope, z, left);
+    return;
+  }
+  FlownArc& arc = *program.arcs[k];
+  program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
+  if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
+  const double dtau = duration_of(piece, by.h, left);
+  push_flown(model, arc, program.dQ, dtau, z);
+  left = piece.kind == Kind::rest ? 0 : left - dtau;
+}
+
 void push_program(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
                   StepProgram& program, Tangent& z) {
   if (by.h != 0) check_time(program, "by its duration");
@@ -85,34 +121,7 @@ void push_program(const ModelData& model, const Tape& tape, const StepDirection&
   z.h = by.h;
   if (program.start.q.size() > 0) z.energy = program.start.dot(z);
   for (const StepProgram::Piece& piece : program.pieces) {
-    const auto k = static_cast<std::size_t>(piece.index);
-    if (piece.kind == Kind::impact) {
-      ImpactPieces& impact = *program.impacts[k];
-      const double de = entry(by.restitution, piece.index);
-      const bool has_orders = impact.node.gaps.size() > 1 && !impact.is_together;
-      if (order == Order::of_direction && has_orders && !impact.rubbing.empty()) {
-        throw ModelError("directional has no impacts with friction on several contacts yet");
-      }
-      if (order == Order::of_direction && has_orders) {
-        push_along(model, tape, tape.impacts[k], de, impact, z, left);
-      } else {
-        push_impact(de, impact, z, left);
-      }
-      continue;
-    }
-    if (piece.kind == Kind::pass) {
-      const Passing& passing = program.passings[k];
-      shift(passing.arrival, passing.gap.n, passing.slope, z, left);
-      continue;
-    }
-    FlownArc& arc = *program.arcs[k];
-    program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
-    if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
-    const double dtau = piece.kind == Kind::rest   ? left
-                        : piece.kind == Kind::part ? piece.part * by.h
-                                                   : 0;
-    push_flown(model, arc, program.dQ, dtau, z);
-    left = piece.kind == Kind::rest ? 0 : left - dtau;
+    push_piece(model, tape, by, order, piece, program, z, left);
   }
   if (!program.has_rest) return;
   z.q += left * program.motion.q;

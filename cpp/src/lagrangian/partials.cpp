@@ -2,6 +2,7 @@
 
 #include "lagrangian/packed/potentials.hpp"
 #include "saltus/lagrangian/packed_matrix.hpp"
+#include "saltus/lagrangian/second_partials.hpp"
 
 namespace saltus {
 namespace {
@@ -66,6 +67,16 @@ void set_first_partials(const Tree& tree, const PackedTree& t, const VecRef& q, 
 
 }  // namespace
 
+void second_partials(const Tree& tree, const PackedTree& t, const Packed& w, SecondPartials& rows,
+                     LagrangianPartials& L) {
+  multiply_pairs(t, w, rows);
+  for (MatX* x : {&L.L_qq, &L.L_vq, &L.L_vv}) x->setZero(tree.n_v, tree.n_v);
+  add_pairs(tree, t, rows, L);
+  add_own_pairs(t, L.L_vv, &L.L_qq);
+  add_coupled_pairs(w, L.L_qq);
+  add_curve_pairs(t, w, L.L_qq);
+}
+
 void lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q, const VecRef& v,
                 LagrangianPartials& L) {
   Packed w(t);
@@ -74,17 +85,10 @@ void lagrangian(const Tree& tree, const PackedTree& t, const VecRef& q, const Ve
   check_springs(t, w);
   const double V = potential_energy(t, w);
   second_pass(t, w);
-  multiply_pairs(t, w, rows);
-
-  const int n = tree.n_v;
-  for (VecX* x : {&L.L_q, &L.L_v}) x->resize(n);
-  for (MatX* x : {&L.L_qq, &L.L_vq, &L.L_vv}) x->setZero(n, n);
+  second_partials(tree, t, w, rows, L);
+  for (VecX* x : {&L.L_q, &L.L_v}) x->resize(tree.n_v);
   gather(tree, t, w.first, 0, L.L_v);
   gather(tree, t, w.first, 1, L.L_q);
-  add_pairs(tree, t, rows, L);
-  add_own_pairs(t, L.L_vv, &L.L_qq);
-  add_coupled_pairs(w, L.L_qq);
-  add_curve_pairs(t, w, L.L_qq);
   L.value = 0.5 * v.dot(L.L_v) - V;
 }
 

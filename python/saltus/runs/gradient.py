@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from saltus._core import ImpactLaw, ModelError, State, Stepper
+from saltus._core import ImpactLaw, ModelError, adjoint
 from saltus.records.options import step_arguments
 from saltus.records.recording import Recording
 
@@ -33,6 +33,8 @@ class RunGradient:
         By the links' own inertial parameters, as in `ModelGradient`.
     stiffness, rest, damping, armature : numpy.ndarray, shape (n_v,)
         By the joints' own, likewise.
+    actuators : numpy.ndarray, shape (n_u, 4)
+        By what the actuators have, likewise.
     """
 
     q: Array
@@ -45,6 +47,7 @@ class RunGradient:
     rest: Array
     damping: Array
     armature: Array
+    actuators: Array
 
 
 def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
@@ -63,13 +66,13 @@ def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
 
 
 def step_options(run: Recording) -> dict[str, Any]:
-    """Return the options of a run's steps but h.
+    """Return the options of a run's steps but h, or raise as `check_run`."""
+    check_run(run)
+    return step_arguments(run.options)
 
-    Raises
-    ------
-    ModelError
-        Where the steps cannot be made again from the rows.
-    """
+
+def check_run(run: Recording) -> None:
+    """Raise ModelError where the steps of a run cannot be made again from its rows."""
     if run.model is None:
         raise ModelError("the run has no model; saltus.load reads it where the file has one")
     h = run.options.h
@@ -85,30 +88,17 @@ def step_options(run: Recording) -> dict[str, Any]:
         )
     if run.options.law == ImpactLaw.custom:
         raise ModelError("the run's impact law is a function, whose derivatives are not told")
-    return step_arguments(run.options)
 
 
 def gradient(run: Recording, q_hat: npt.ArrayLike, p_hat: npt.ArrayLike) -> RunGradient:
     """Return the gradient of a cost, see `Trajectory.gradient`."""
-    options = step_options(run)
-    assert run.model is not None  # step_options asks for one
-    stepper = Stepper(run.model, h=run.options.h, record=True, **options)
-    model = stepper.model
-    rows, n_v, n_u = len(run.t), model.n_v, run.control.shape[1]
+    check_run(run)
+    assert run.model is not None  # check_run asks for one
+    rows, n_v = len(run.t), run.model.n_v
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)
-    control, qfrc = np.zeros((rows - 1, n_u)), np.zeros((rows - 1, n_v))
-    sums: dict[str, Array] = {"inertia": np.zeros((len(model.links), 10))}
-    sums |= {name: np.zeros(n_v) for name in ("stiffness", "rest", "damping", "armature")}
-    q, p, h = by_q[-1].copy(), by_p[-1].copy(), 0.0
-    for k in reversed(range(rows - 1)):
-        start = State(run.t[k], run.q[k], run.p[k])
-        stepper.advance(start, control=run.control[k] if n_u > 0 else None)
-        of_model = stepper.model_gradient(q, p)
-        for name, total in sums.items():
-            total += getattr(of_model, name)
-        back = stepper.vjp(q, p)
-        control[k], qfrc[k] = back.control, back.qfrc
-        h += back.h
-        q, p = back.q + by_q[k], back.p + by_p[k]
-    return RunGradient(q, p, control, qfrc, h, **sums)
+    q, p, control, qfrc, h, of_model = adjoint(
+        run.model, run.options, run.t, run.q, run.p, run.control, by_q, by_p
+    )
+    names = ("inertia", "stiffness", "rest", "damping", "armature", "actuators")
+    return RunGradient(q, p, control, qfrc, h, **{name: getattr(of_model, name) for name in names})

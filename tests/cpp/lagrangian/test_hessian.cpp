@@ -34,6 +34,7 @@ TEST(HessianProduct, IsThatOfTheDensePartials) {
     test::Random random(static_cast<std::uint64_t>(k));
     const VecX x = random.vector(t.tree.n_v), y = random.vector(t.tree.n_v);
     HessianProduct product(t.tree);
+    take_generators(t.tree, arc.packed, arc.w, product);
     multiply_by_hessian(t.tree, arc.packed, arc.w, x, y, product);
     const double size = L.L_vv.norm() + L.L_vq.norm() + L.L_qq.norm();
     EXPECT_LT(relative_error(product.by_v, VecX(L.L_vv * y + L.L_vq * x), size), 1e-13) << k;

@@ -1,4 +1,4 @@
-// Derivatives of a step, through its impacts: exact, at about the price of the step.
+// Derivatives of a step, through its impacts: exact, for one or two times what the step cost.
 //
 // Theory, D. A step is a row of arcs and impacts, and its derivative the product of theirs. When a
 // gap closes depends on the start, and so does what is left of the step after it:
@@ -58,6 +58,9 @@ struct ModelGradient {
   VecX rest;       ///< (n_v) [rad | m] where these are at rest
   VecX damping;    ///< (n_v) [N m s/rad | N s/m]
   VecX armature;   ///< (n_v) [kg m^2 | kg]
+  /// (n_u, 4) gain, bias, bias_l and bias_v of each actuator (force_model.hpp); 0 where it pushes
+  /// all it can.
+  MatX actuators;
 };
 
 /// Of the state that a step ends in.

@@ -24,6 +24,15 @@ struct HessianProduct {
   VecX by_v;  ///< (n_v) L_vv y + L_vq x
   VecX by_q;  ///< (n_v) (L_vq^T + Q_v) y + (L_qq + Q_q) x
 
+  /// By joint, one beside the other: in lanes each number is in a cache line of its own.
+  struct Generators {
+    Vec6 S, W, U, F;
+    Vec3 G;
+    double multiplier;
+    int velocity, parent;
+  };
+  std::vector<Generators> own;
+
   // scratch, by joint
   struct Below {
     Vec6 a;
@@ -37,7 +46,11 @@ struct HessianProduct {
   std::vector<Above> above;
 };
 
-/// Writes both products of x and y (n_v). Needs second_pass, and the slopes of forces.
+/// Takes the generators at one (q, v), for many products there. Needs second_pass.
+SALTUS_EXPORT void take_generators(const Tree& tree, const PackedTree& packed, const Packed& w,
+                                   HessianProduct& out);
+
+/// Writes both products of x and y (n_v). Needs take_generators, and the slopes of forces.
 SALTUS_EXPORT void multiply_by_hessian(const Tree& tree, const PackedTree& packed, const Packed& w,
                                        const VecRef& x, const VecRef& y, HessianProduct& out);
 

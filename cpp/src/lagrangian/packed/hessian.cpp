@@ -7,78 +7,62 @@ namespace {
 
 using Strided3 = Eigen::Map<const Vec3, 0, Eigen::InnerStride<lanes>>;
 using Strided6 = Eigen::Map<const Vec6, 0, Eigen::InnerStride<lanes>>;
+using Generators = HessianProduct::Generators;
 
-/// The generators of one joint.
-struct Generators {
-  Strided6 S, W, U, F;
-  Strided3 G;
-  Generators(const Packed& w, int slot)
-      : S(at(w.S_W, slot)),
-        W(at(w.S_W, slot) + 6 * lanes),
-        U(at(w.U_F_G, slot)),
-        F(at(w.U_F_G, slot) + 6 * lanes),
-        G(at(w.U_F_G, slot) + 12 * lanes) {}
-};
-
-double along(const Tree& tree, int joint, const VecRef& x) {
-  return tree.drive[joint].multiplier * x[tree.drive[joint].velocity];
-}
-
-void sum_below(const Tree& tree, const PackedTree& t, const Packed& w, const VecRef& x,
-               const VecRef& y, HessianProduct& out) {
+void sum_below(const VecRef& x, const VecRef& y, HessianProduct& out) {
   for (HessianProduct::Below& each : out.below) {
     each.a.setZero();
     each.g.setZero();
   }
-  for (int i = tree.joints() - 1; i >= 0; --i) {
-    const Generators own(w, t.slot[i]);
-    const double x_i = along(tree, i, x), y_i = along(tree, i, y);
+  for (std::size_t i = out.own.size(); i-- > 0;) {
+    const Generators& own = out.own[i];
+    const double x_i = own.multiplier * x[own.velocity], y_i = own.multiplier * y[own.velocity];
     HessianProduct::Below& to = out.below[i];
     to.a += y_i * own.U + x_i * own.F;
     to.g += x_i * own.G;
-    if (tree.parent[i] < 0) continue;
-    out.below[tree.parent[i]].a += to.a;
-    out.below[tree.parent[i]].g += to.g;
+    if (own.parent < 0) continue;
+    HessianProduct::Below& parent = out.below[static_cast<std::size_t>(own.parent)];
+    parent.a += to.a;
+    parent.g += to.g;
   }
 }
 
-/// Sums over proper ancestors.
-void sum_above(const Tree& tree, const PackedTree& t, const Packed& w, const VecRef& x,
-               const VecRef& y, HessianProduct& out) {
-  for (int i = 0; i < tree.joints(); ++i) {
-    const int parent = tree.parent[i];
+/// Of a joint that is not of a ball.
+void multiply_joint(const Generators& own, const HessianProduct::Below& below,
+                    const HessianProduct::Above& above, HessianProduct& out) {
+  out.by_v[own.velocity] += own.multiplier * (own.S.dot(below.a) + own.U.dot(above.s));
+  out.by_q[own.velocity] += own.multiplier * (own.W.dot(below.a) + own.S.head<3>().dot(below.g) +
+                                              own.F.dot(above.s) + own.G.dot(above.r));
+}
+
+/// Sums over proper ancestors, and the products with both sums.
+void multiply_down(const Tree& tree, const VecRef& x, const VecRef& y, HessianProduct& out) {
+  for (std::size_t i = 0; i < out.own.size(); ++i) {
+    const Generators& own = out.own[i];
     HessianProduct::Above& to = out.above[i];
-    if (parent < 0) {
+    if (own.parent < 0) {
       to.s.setZero();
       to.r.setZero();
-      continue;
+    } else {
+      const auto p = static_cast<std::size_t>(own.parent);
+      const Generators& parent = out.own[p];
+      const double x_p = parent.multiplier * x[parent.velocity];
+      const double y_p = parent.multiplier * y[parent.velocity];
+      to.s = out.above[p].s + y_p * parent.S + x_p * parent.W;
+      to.r = out.above[p].r + x_p * parent.S.head<3>();
     }
-    const Generators own(w, t.slot[parent]);
-    const double x_p = along(tree, parent, x), y_p = along(tree, parent, y);
-    to.s = out.above[parent].s + y_p * own.S + x_p * own.W;
-    to.r = out.above[parent].r + x_p * own.S.head<3>();
+    if (!tree.joint[i].is_ball()) multiply_joint(own, out.below[i], to, out);
   }
-}
-
-void multiply_joint(const Tree& tree, const Packed& w, int joint, int slot, HessianProduct& out) {
-  const Generators own(w, slot);
-  const HessianProduct::Below& below = out.below[joint];
-  const HessianProduct::Above& above = out.above[joint];
-  const Drive& drive = tree.drive[joint];
-  out.by_v[drive.velocity] += drive.multiplier * (own.S.dot(below.a) + own.U.dot(above.s));
-  out.by_q[drive.velocity] +=
-      drive.multiplier *
-      (own.W.dot(below.a) + own.S.head<3>().dot(below.g) + own.F.dot(above.s) + own.G.dot(above.r));
 }
 
 /// Within a ball each joint is above all three, itself included, in L_vv, L_vq, L_qq; and so below
 /// all in their transposes.
-void multiply_ball(const PackedBall& ball, const Packed& w, const VecRef& x, const VecRef& y,
-                   int first, bool transposed, HessianProduct& out) {
+void multiply_ball(const PackedBall& ball, const VecRef& x, const VecRef& y, int first,
+                   bool transposed, HessianProduct& out) {
   HessianProduct::Below of_v = out.below[first], of_q = of_v;
   HessianProduct::Above up_v = out.above[first], up_q = up_v;
   for (int k = 0; k < 3; ++k) {
-    const Generators own(w, ball.slot[k]);
+    const Generators& own = out.own[static_cast<std::size_t>(first + k)];
     const double x_k = x[ball.velocity + k], y_k = y[ball.velocity + k];
     of_q.a -= y_k * own.U;
     up_q.s += y_k * own.S;
@@ -89,7 +73,7 @@ void multiply_ball(const PackedBall& ball, const Packed& w, const VecRef& x, con
     up_q.r += x_k * own.S.head<3>();
   }
   for (int k = 0; k < 3; ++k) {
-    const Generators own(w, ball.slot[k]);
+    const Generators& own = out.own[static_cast<std::size_t>(first + k)];
     out.by_v[ball.velocity + k] = own.S.dot(of_v.a) + own.U.dot(up_v.s);
     out.by_q[ball.velocity + k] =
         own.W.dot(of_q.a) + own.S.head<3>().dot(of_q.g) + own.F.dot(up_q.s) + own.G.dot(up_q.r);
@@ -127,15 +111,12 @@ void add_slopes_by_v(const PackedTree& t, const Packed& w, const VecRef& y, VecX
 
 void multiply(const Tree& tree, const PackedTree& t, const Packed& w, const VecRef& x,
               const VecRef& y, bool transposed, HessianProduct& out) {
-  sum_below(tree, t, w, x, y, out);
-  sum_above(tree, t, w, x, y, out);
   out.by_v.setZero();
   out.by_q.setZero();
-  for (int i = 0; i < tree.joints(); ++i) {
-    if (!tree.joint[i].is_ball()) multiply_joint(tree, w, i, t.slot[i], out);
-  }
+  sum_below(x, y, out);
+  multiply_down(tree, x, y, out);
   for (std::size_t b = 0; b < t.balls.size(); ++b) {
-    multiply_ball(t.balls[b], w, x, y, tree.balls[b].joint, transposed, out);
+    multiply_ball(t.balls[b], x, y, tree.balls[b].joint, transposed, out);
   }
   add_own(t, w, x, y, out);
 }
@@ -143,9 +124,24 @@ void multiply(const Tree& tree, const PackedTree& t, const Packed& w, const VecR
 }  // namespace
 
 HessianProduct::HessianProduct(const Tree& tree)
-    : below(static_cast<std::size_t>(tree.joints())),
-      above(static_cast<std::size_t>(tree.joints())) {
+    : own(static_cast<std::size_t>(tree.joints())), below(own.size()), above(own.size()) {
   for (VecX* each : {&by_v, &by_q}) each->setZero(tree.n_v);
+}
+
+void take_generators(const Tree& tree, const PackedTree& t, const Packed& w, HessianProduct& out) {
+  for (int i = 0; i < tree.joints(); ++i) {
+    const int slot = t.slot[i];
+    const double *S_W = at(w.S_W, slot), *U_F_G = at(w.U_F_G, slot);
+    Generators& own = out.own[static_cast<std::size_t>(i)];
+    own.S = Strided6(S_W);
+    own.W = Strided6(S_W + 6 * lanes);
+    own.U = Strided6(U_F_G);
+    own.F = Strided6(U_F_G + 6 * lanes);
+    own.G = Strided3(U_F_G + 12 * lanes);
+    own.multiplier = tree.drive[i].multiplier;
+    own.velocity = tree.drive[i].velocity;
+    own.parent = tree.parent[i];
+  }
 }
 
 void multiply_by_hessian(const Tree& tree, const PackedTree& t, const Packed& w, const VecRef& x,

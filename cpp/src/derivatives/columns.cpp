@@ -1,0 +1,95 @@
+#include "derivatives/columns.hpp"
+
+namespace saltus {
+namespace {
+
+using Kind = StepProgram::Kind;
+
+/// Of fewer coordinates than this a matrix saves a microsecond at most over columns one by one.
+constexpr Eigen::Index few = 4;
+
+Eigen::Index count_of(const ModelData& model, Input input, const StepProgram& program) {
+  switch (input) {
+    case Input::state:
+      return 2 * model.tree.n_v;
+    case Input::control:
+      return model.forces.n_u();
+    case Input::qfrc:
+      return model.tree.n_v;
+    case Input::restitution:
+      break;
+  }
+  return program.n_impacts;
+}
+
+/// Column c of the input, but for the state, which is in Z.
+StepDirection unit_of(Input input, Eigen::Index columns, Eigen::Index c) {
+  StepDirection by;
+  const VecX unit = VecX::Unit(columns, c);
+  if (input == Input::control) by.control = unit;
+  if (input == Input::qfrc) by.qfrc = unit;
+  if (input == Input::restitution) by.restitution = unit;
+  return by;
+}
+
+/// Forces (n_v, columns) on an arc; without columns: none.
+MatX forces_of(Input input, const FlownArc& arc, Eigen::Index n) {
+  if (input == Input::control) return arc.arc.Q_u;
+  if (input == Input::qfrc) return MatX::Identity(n, n);
+  return {};
+}
+
+/// Columns as they go through the pieces; `energy` by what a law that matches one has found.
+struct Pushed {
+  MatX& Z;
+  VecX left, energy;
+};
+
+void push_each(const ModelData& model, const Tape& tape, Input input,
+               const StepProgram::Piece& piece, StepProgram& program, Pushed& all) {
+  const Eigen::Index n = model.tree.n_v, columns = all.Z.cols();
+  Tangent z;
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    z.q = all.Z.col(c).head(n);
+    z.p = all.Z.col(c).tail(n);
+    z.energy = all.energy[c];
+    push_piece(model, tape, unit_of(input, columns, c), Order::own, piece, program, z, all.left[c]);
+    all.Z.col(c) << z.q, z.p;
+    all.energy[c] = z.energy;
+  }
+}
+
+}  // namespace
+
+void push_columns(const ModelData& model, const Tape& tape, Input input, StepProgram& program,
+                  DenseScratch& scratch, MatX& Z) {
+  const Eigen::Index n = model.tree.n_v, columns = count_of(model, input, program);
+  bool is_unit = input == Input::state;
+  if (is_unit) {
+    Z.setIdentity(2 * n, columns);
+  } else {
+    Z.setZero(2 * n, columns);
+  }
+  Pushed all{Z, VecX::Zero(columns), VecX::Zero(columns)};
+  if (program.start.q.size() > 0) {
+    all.energy =
+        Z.topRows(n).transpose() * program.start.q + Z.bottomRows(n).transpose() * program.start.p;
+  }
+  for (const StepProgram::Piece& piece : program.pieces) {
+    const bool is_arc = piece.kind != Kind::impact && piece.kind != Kind::pass;
+    FlownArc* arc = is_arc ? program.arcs[static_cast<std::size_t>(piece.index)].get() : nullptr;
+    if (n >= few && is_arc && is_plain(*arc) && set_dense(model, *arc, scratch)) {
+      const VecX dtau = piece.kind == Kind::rest ? all.left : VecX::Zero(columns);
+      push_dense(model, *arc, forces_of(input, *arc, n), dtau, is_unit, Z);
+      if (piece.kind == Kind::rest) all.left.setZero();
+    } else {
+      push_each(model, tape, input, piece, program, all);
+    }
+    is_unit = false;
+  }
+  if (!program.has_rest) return;
+  Z.topRows(n) += program.motion.q * all.left.transpose();
+  Z.bottomRows(n) += program.motion.p * all.left.transpose();
+}
+
+}  // namespace saltus
