@@ -180,7 +180,8 @@ void forget_factors(ContactBlocks& W) {
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest, &bound}) each->reserve(k);
-  for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial, &u_first, &p_first})
+    each->reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
   for (auto* each : {&W, &L, &K, &H}) each->reserve(9 * k * k);
@@ -248,8 +249,17 @@ Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3
   if (first.least() <= small_residual || (part > 0 && first.least() < before / 2)) return first;
   // sweeps lead out of where Newton's method turns in a circle
   const int most_sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
-  settle(W, most_sweeps, u, p);
-  return settle_pile(W, s, u, p, part);
+  s.u_first = u;
+  s.p_first = p;
+  const int sweeps = settle(W, most_sweeps, u, p);
+  s.work += 9.0 * static_cast<double>(W.block.size()) * sweeps;
+  Settled out = settle_pile(W, s, u, p, part);
+  if (!(out.residual <= first.residual)) {  // sweeps may diverge where W has no symmetry
+    out = first;
+    u = s.u_first;
+    p = s.p_first;
+  }
+  return out;
 }
 
 }  // namespace saltus
