@@ -166,6 +166,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/step_input.cpp
   cpp/src/variational/step/stepper.cpp
+  cpp/src/variational/step/time_stepping.cpp
   cpp/src/variational/step/unlocated.cpp
   # derivatives
   cpp/src/derivatives/arc_derivative.cpp

@@ -214,18 +214,25 @@ void bind_copies(py::class_<Model>& c) {
    }).def("__deepcopy__", [](const Model& m, const py::object&) { return m; }, py::arg("memo"));
 }
 
+using PartialsOrNone = py::typing::Optional<LagrangianPartials>;
+
 // New ones belong to the caller; of `out` pybind11 finds the object that it is.
 LagrangianPartials* lagrangian_into(const Model& model, const Coordinates& q, const Velocities& v,
-                                    LagrangianPartials* out) {
-  if (out == nullptr) {
+                                    const PartialsOrNone& out) {
+  if (out.is_none()) {
     return new LagrangianPartials(model.lagrangian(to_vector(q, model), to_vector(v, model)));
   }
-  if (out->L_v.size() != model.n_v()) {  // its arrays may be seen, so they stay where they are
-    throw ModelError("out has partials of n = " + std::to_string(out->L_v.size()) +
+  if (!py::isinstance<LagrangianPartials>(out)) {
+    throw py::type_error("out is " + py::repr(py::type::of(out)).cast<std::string>() +
+                         "; it is LagrangianPartials of an earlier call");
+  }
+  auto* partials = out.cast<LagrangianPartials*>();
+  if (partials->L_v.size() != model.n_v()) {  // its arrays may be seen, so they stay where they are
+    throw ModelError("out has partials of n = " + std::to_string(partials->L_v.size()) +
                      "; this model has n_v = " + std::to_string(model.n_v()));
   }
-  model.lagrangian(to_vector(q, model), to_vector(v, model), *out);
-  return out;
+  model.lagrangian(to_vector(q, model), to_vector(v, model), *partials);
+  return partials;
 }
 
 }  // namespace
@@ -258,10 +265,8 @@ void bind_model(py::module_& m) {
        },
        docs::model_state, py::arg("q") = py::none(), py::arg("v") = py::none(), py::arg("t") = 0.0)
       .def("velocity", &Model::velocity, docs::model_velocity, py::arg("state"))
-      .def(
-          "lagrangian",
-          &lagrangian_into, docs::model_lagrangian, py::arg("q"), py::arg("v"), py::kw_only(),
-          py::arg("out") = py::none(), py::return_value_policy::take_ownership)
+      .def("lagrangian", &lagrangian_into, docs::model_lagrangian, py::arg("q"), py::arg("v"),
+           py::kw_only(), py::arg("out") = py::none(), py::return_value_policy::take_ownership)
       .def(
           "mass_matrix",
           [](const Model& model, const Coordinates& q) {

@@ -61,3 +61,5 @@ def test_partials_are_written_into_those_of_an_earlier_call():
         np.testing.assert_array_equal(out.L_qq, fresh.L_qq)
     with pytest.raises(saltus.ModelError, match="out has partials of n = 4; this model"):
         cradle().lagrangian(np.zeros(6), np.zeros(6), out=out)
+    with pytest.raises(TypeError, match="out is <class 'float'>; it is LagrangianPartials"):
+        model.lagrangian(q, v, out=1.0)

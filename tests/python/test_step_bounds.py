@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 import saltus
 
@@ -49,3 +50,51 @@ def test_arcs_that_lead_nowhere_end():
         assert (state.p == before[1]).all()
     else:  # it may pass one day
         assert stepper.report.arcs <= 2 * stepper.options.max_impacts + 2 * 64
+
+
+def wall_of_bricks(rows: int, columns: int) -> tuple[saltus.Model, saltus.State]:
+    """Return a wall without mortar, of which each brick lies on two, and a ball that hits it."""
+    builder = saltus.ModelBuilder().add_floor().set_default_contact(restitution=0, friction=0.6)
+    for row in range(rows):
+        for column in range(columns):
+            X = saltus.Pose((0, 0.2 * column + 0.1 * (row % 2), 0.05 + 0.1 * row))
+            builder.add_body(f"{row}_{column}", saltus.Box((0.05, 0.1, 0.05)), mass=2, X=X)
+    X = saltus.Pose((0.5, 0.45, 0.35))
+    builder.add_body("ball", saltus.Sphere(0.08), mass=3, X=X, joint_name="ball")
+    model = builder.build()
+    return model, model.state(v={"ball_vx": -5.0})
+
+
+def test_the_step_in_which_a_wall_is_hit_is_exact():
+    """Contacts of a brick that slides contradicted each other in the direction of their friction.
+
+    So the closing kick had no impulses, and the step was halved to the last: 50 s of CPU.
+    """
+    model, state = wall_of_bricks(6, 5)
+    stepper = saltus.Stepper(model, h=0.005)
+    hits = 0
+    while state.t < 0.0749:  # the step from 0.07 s on has the hit
+        state = stepper.advance(state)
+        hits += len(stepper.report.impacts)
+        assert len(stepper.report.fallbacks) == 0
+    assert hits > 0
+
+
+def test_edges_that_lie_along_each_other_have_arcs():
+    """Where nearly parallel edges cross is anywhere on them, and so was the normal that held them.
+
+    Steps of a wall that falls apart are halved at the worst; they went on to time stepping.
+    """
+    model, state = wall_of_bricks(4, 3)
+    stepper = saltus.Stepper(model, h=0.005)
+    energy = [model.kinetic_energy(state) + model.potential_energy(state.q)]
+    arcs = []
+    for _ in range(18):
+        state = stepper.advance(state)
+        arcs.append(stepper.report.arcs)
+        assert {fallback[2] for fallback in stepper.report.fallbacks} <= {"halved"}
+        energy.append(model.kinetic_energy(state) + model.potential_energy(state.q))
+    assert max(arcs) <= 2 * 64
+    # contacts take energy; a midpoint may swing by (h omega)^2 / 8 of it
+    assert all(after <= before * (1 + 1e-3) for before, after in pairwise(energy))
+    assert model.gaps(state.q).phi.min() > -1e-9  # what is not moved apart, 1e-8 of the bricks

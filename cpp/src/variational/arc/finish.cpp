@@ -81,18 +81,18 @@ bool is_against_slip(const Scene& scene, const Contact& c, const Vec3& push, con
   return push[1] * dot(scene.trees, c.t[0], v) + push[2] * dot(scene.trees, c.t[1], v) <= 0;
 }
 
+bool is_given(const Vec3& push) { return !push.isZero(0); }
+
 /// Where the direction of friction is given, a contact has one rate, u_n, and one impulse.
 void hold_directions(HalfKick& kick) {
   ContactBlocks& W = kick.W;
-  if (std::any_of(kick.push.begin(), kick.push.end(), [](const Vec3& x) { return !x.isZero(0); })) {
-    forget_factors(W);
-  }
+  if (std::any_of(kick.push.begin(), kick.push.end(), is_given)) forget_factors(W);
   for (int j = 0; j < W.size(); ++j) {
-    const bool given = !kick.push[j].isZero(0);
+    const bool given = is_given(kick.push[j]);
     for (int k = W.start[j]; k < W.start[j + 1]; ++k) {
       Mat3& block = W.block[k];
       if (given) block << Vec3(block * kick.push[j]), Vec3::Zero(), Vec3::Zero();
-      if (!kick.push[W.contact[k]].isZero(0)) block.bottomRows<2>().setZero();
+      if (is_given(kick.push[W.contact[k]])) block.bottomRows<2>().setZero();
     }
     if (!given) continue;
     W.own[j] = Vec3(W.own[j].row(0).dot(kick.push[j]), 0, 0).asDiagonal();
@@ -102,12 +102,18 @@ void hold_directions(HalfKick& kick) {
   }
 }
 
-/// Coulomb's law of all where friction that is given would draw its contact in, or push it on.
+/// Coulomb's law of all where friction that is given would draw its contact in, or push it on; of
+/// all contacts where with it no impulses meet the law: W has no symmetry then, and many contacts
+/// of a body may contradict each other. Coulomb's law has always a solution.
 /// @return true where one has changed
 bool release(const Scene& scene, const Node& node, HalfKick& kick) {
   bool released = false;
+  if (!(kick.residual <= small_residual)) {
+    kick.push.assign(kick.push.size(), Vec3::Zero());
+    return true;
+  }
   for (std::size_t i = 0; i < kick.push.size(); ++i) {
-    if (kick.push[i].isZero(0)) continue;
+    if (!is_given(kick.push[i])) continue;
     if (is_against_slip(scene, *kick.contacts[i], kick.push[i], node.v)) continue;
     kick.push[i].setZero();
     released = true;
@@ -132,11 +138,13 @@ void share_once(const Scene& scene, Node& node, HalfKick& kick) {
   }
   hold_directions(kick);
   add_rates(kick.W, kick.p, kick.u);
-  kick.residual = settle_for_sure(kick.W, kick.pile, kick.u, kick.p).excess;
+  const bool given = std::any_of(kick.push.begin(), kick.push.end(), is_given);
+  kick.residual = given ? settle_pile(kick.W, kick.pile, kick.u, kick.p).excess
+                        : settle_for_sure(kick.W, kick.pile, kick.u, kick.p).excess;
   kick.unlawful =
       kick.contacts[static_cast<std::size_t>(most_lawless(kick.W, kick.u, kick.p))]->slot;
   for (std::size_t i = 0; i < kick.contacts.size(); ++i) {
-    if (!kick.push[i].isZero(0)) kick.p[i] = kick.p[i][0] * kick.push[i];
+    if (is_given(kick.push[i])) kick.p[i] = kick.p[i][0] * kick.push[i];
     apply(scene, *kick.contacts[i], kick.p[i], node);
   }
 }
@@ -181,12 +189,13 @@ bool share_as_before(const Scene& scene, Node& node, HalfKick& kick) {
 void share(const Scene& scene, Node& node, HalfKick& kick) {
   kick.pile.reserve(kick.contacts.size());
   release(scene, node, kick);
-  const bool any = std::any_of(kick.push.begin(), kick.push.end(),
-                               [](const Vec3& push) { return !push.isZero(0); });
+  const bool any = std::any_of(kick.push.begin(), kick.push.end(), is_given);
   if (any) kick.p_before = node.p, kick.v_before = node.v;
   set_dry_rates(scene, node, kick);
   if (any || !share_as_before(scene, node, kick)) share_once(scene, node, kick);
-  while (any && release(scene, node, kick)) {  // fewer are given each time
+  bool may_release = any;
+  while (may_release && release(scene, node, kick)) {  // fewer are given each time
+    may_release = std::any_of(kick.push.begin(), kick.push.end(), is_given);
     node.p = kick.p_before;
     node.v = kick.v_before;
     share_once(scene, node, kick);

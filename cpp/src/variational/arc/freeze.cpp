@@ -33,6 +33,26 @@ bool is_rolling_rim(const Row& row) {
   return std::holds_alternative<Rim>(row.pair->kind) && !row.is_point;
 }
 
+/// An edge of a solid with faces that crosses another's, at a point that has no size.
+bool is_sharp_crossing(const Pair& pair) {
+  const auto is_line = [](const Shape& shape) {
+    const auto* edge = std::get_if<Capsule>(&shape);
+    return edge != nullptr && !(edge->radius > 0);
+  };
+  return std::holds_alternative<Crossing>(pair.kind) && is_line(pair.on_a.shape) &&
+         is_line(pair.on_b.shape);
+}
+
+/// sin of the angle between two edges below which they lie along each other: where they cross then
+/// is anywhere on them after a little turn, and the normal there any that is across.
+constexpr double nearly_parallel = 0.1;
+
+bool lie_along(const ModelData& model, const Node& node, const Pair& pair) {
+  const Mat3 R_a = node.kin.X_WJ(model.tree, pair.on_a.joint).R * pair.on_a.X_JG.R;
+  const Mat3 R_b = node.kin.X_WJ(model.tree, pair.on_b.joint).R * pair.on_b.X_JG.R;
+  return R_a.col(2).cross(R_b.col(2)).norm() < nearly_parallel;
+}
+
 Vec3 in_frame(const Pose& X_WJ, const Vec3& p_W) { return X_WJ.R.transpose() * (p_W - X_WJ.p); }
 
 /// Where it touches at the node, in the frame of a's joint.
@@ -53,6 +73,17 @@ void freeze_point(const ModelData& model, const Node& node, Row& row) {
 
 bool is_held_in_plane(const ModelData& model, const Row& row, const Node& node) {
   return is_sharp(*row.pair) || (is_rod_end(model, *row.pair) && rests_on_edge(row.slot, node));
+}
+
+void hold_edges(const ModelData& model, const Node& node, Row& row) {
+  if (is_sharp_crossing(*row.pair) && lie_along(model, node, *row.pair)) {
+    freeze_point(model, node, row);
+  }
+}
+
+bool is_held_crossing(const ModelData& model, const Row& row, const Node& node) {
+  return row.is_point && std::holds_alternative<Crossing>(row.pair->kind) &&
+         !lie_along(model, node, *row.pair);
 }
 
 void freeze(const ModelData& model, const Node& node, Row& row) {
@@ -93,7 +124,8 @@ bool level_held_ends(const Scene& scene, const Node& node, Rows& rows) {
   for (int i = 0; i < rows.count; ++i) {
     Row& row = rows.row[i];
     if (row.is_joint() || !row.is_active) continue;
-    if (is_rolling_rim(row)) {
+    const bool turns = !row.is_frozen && is_sharp_crossing(*row.pair);
+    if (turns || is_rolling_rim(row)) {
       freeze_point(scene.model, node, row);
     } else if (!row.is_frozen && is_rod_end(scene.model, *row.pair)) {
       freeze(scene.model, node, row);

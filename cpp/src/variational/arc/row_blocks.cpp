@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "saltus/collision/slip.hpp"
+#include "variational/arc/freeze.hpp"
 
 namespace saltus {
 namespace {
@@ -49,15 +50,15 @@ void set_sliding(const Scene& scene, const Contact& c, bool still, Row& row, Vec
 }
 
 /// Tangential rates of a point: its chord on the plane, as b's body sees it.
-void set_chord(const Scene& scene, const Contact& c, const Gap& g, bool still, Row& row, Vec3& u,
-               ArcWork& work) {
+void set_chord(const Scene& scene, const Contact& c, const Vec3& p_WA, bool still, Row& row,
+               Vec3& u, ArcWork& work) {
   const Tree& tree = scene.model.tree;
   const Kinematics& kin = work.scratch.kin_end;
   const Pose X_WJ = kin.X_WJ(tree, row.frozen.on_b.joint);
-  const Vec3 chord = g.p_WA - (X_WJ.p + X_WJ.R * row.point_B);
+  const Vec3 chord = p_WA - (X_WJ.p + X_WJ.R * row.point_B);
   for (int k = 1; k < 3; ++k) {
     const Vec3 t = X_WJ.R * row.t_B[k - 1];
-    add_motion_gradient(tree, kin, row.frozen, g.p_WA, t, work.rows.dense);
+    add_motion_gradient(tree, kin, row.frozen, p_WA, t, work.rows.dense);
     const double linear = take_rate(scene, c, k, work.arc.v, row, work.rows);
     u[k] = still ? linear : t.dot(chord) / work.arc.tau;
   }
@@ -94,11 +95,15 @@ void set_row_rates(const Scene& scene, const Node& node, ArcWork& work) {
     Vec3& u = rows.u[i];
     u.setZero();
     if (slides && !row.is_point) set_sliding(scene, c, still, row, u, work);
-    const Gap g = pair_gap(model.tree, s.kin_end, row.watched());
-    add_gap_gradient(model.tree, s.kin_end, row.watched(), g, rows.dense);
+    const bool crosses = is_held_crossing(model, row, node);
+    const Pair& closed = crosses ? *row.pair : row.watched();
+    const Gap g = pair_gap(model.tree, s.kin_end, closed);
+    add_gap_gradient(model.tree, s.kin_end, closed, g, rows.dense);
     const double linear = take_rate(scene, c, 0, work.arc.v, row, rows);
     u[0] = still ? linear + (c.phi - row.target) / tau : (g.phi - row.target) / tau;
-    if (slides && row.is_point) set_chord(scene, c, g, still, row, u, work);
+    if (!slides || !row.is_point) continue;
+    const Vec3 p_WA = crosses ? pair_gap(model.tree, s.kin_end, row.frozen).p_WA : g.p_WA;
+    set_chord(scene, c, p_WA, still, row, u, work);
   }
 }
 

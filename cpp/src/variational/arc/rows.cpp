@@ -53,6 +53,7 @@ void add_row(const Scene& scene, const Contact& c, const Node& node, Rows& rows)
   row.p.setZero();
   row.own.setZero();
   if (is_held_in_plane(scene.model, row, node)) freeze(scene.model, node, row);
+  hold_edges(scene.model, node, row);
 }
 
 void add_joint_row(int dry, double tau, const Memory& memory, Rows& rows) {

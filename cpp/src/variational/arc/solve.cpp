@@ -11,6 +11,7 @@ namespace {
 
 constexpr int most_rounds = 40;  ///< 2 to 6 are usual
 constexpr int most_idle = 8;     ///< rounds that do not halve what is unlawful
+constexpr int idle_at_once = 3;  ///< of them, where impulses do not either: 2 such are enough
 
 /// To rounding, which grows with what holds each other; or where redundant contacts that turn keep
 /// from it, as far as it will go.
@@ -122,7 +123,7 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     }
     const Lawlessness now{std::max(arc.residual, law.residual), std::max(arc.residual, law.excess)};
     rows.residual = now.least();
-    const bool ends = round == most_rounds || idle == most_idle;
+    const bool ends = round == most_rounds || idle >= most_idle;
     const bool meets_arc = arc.residual <= most_residual;
     if (meets_arc && ends && rows.residual <= large_residual) break;
     if (meets_arc && is_solved && is_lawful(now, before, rows.active.size())) break;
@@ -143,7 +144,10 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     if (knows_sizes) set_row_blocks(scene, node, work);  // not for what is lawful already
     rows.before = rows.p;
     // the next round finds the rest, with twice the digits
-    settle_for_sure(rows.W, rows.pile, rows.u, rows.p, std::min(1e-2, law.residual));
+    const Settled found =
+        settle_for_sure(rows.W, rows.pile, rows.u, rows.p, std::min(1e-2, law.residual));
+    // rates that no impulses can end: the next round meets the same
+    if (found.residual > law.residual / 2) idle += idle_at_once;
     add_change(scene, work);
   }
   if (!node.dry.empty()) stand_still(scene, node, work);

@@ -159,7 +159,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   bool knows_hits = false;  // of this arc: the one before was missed on it
   // every turn presses a row, lets a pair pass, or shortens the arc to an earlier impact
   const int most_turns = 100 + 4 * std::min(node.pool.size(), 250);
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < most_turns && work.rows.pile.work <= most_pile_work; ++turn) {
     ImpactTime found = ImpactTime::not_converged;
     if (solved || solve(scene, tau, node, work)) {
       if (launch != nullptr) f.has_missed_energy = !meet(scene, tau, *launch, node, f);

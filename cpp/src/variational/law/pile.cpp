@@ -43,12 +43,12 @@ void sort_by_island(const ContactBlocks& W, PileScratch& s) {
 }  // namespace
 
 /// Newton's method for one round, from z = 0 on. @return iterations
-int PileIsland::solve_round(double rho, double part, bool& ended) {
+int PileIsland::solve_round(double rho, double precision, bool& ended) {
   const double size_before = size_of_impulses();
   std::fill(s_.z.begin(), s_.z.end(), 0.0);
   double f = set_F(rho, s_.z, s_.F);
   const double start = f;
-  const double enough = std::clamp(1e-2 * part, 1e-8, 1e-5) * start;
+  const double enough = std::clamp(1e-2 * precision, 1e-8, 1e-5) * start;
   ended = false;
   for (int iteration = 0; iteration < most_newton; ++iteration) {
     const double size = size_before + Eigen::Map<Eigen::RowVectorXd>(s_.z.data(), r_).norm();
@@ -190,7 +190,8 @@ void forget_factors(ContactBlocks& W) {
 void PileScratch::reserve(std::size_t k) {
   for (auto* each : {&island, &order, &place, &first, &last}) each->reserve(k);
   for (auto* each : {&scale, &friction, &rest, &bound}) each->reserve(k);
-  for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial}) each->reserve(k);
+  for (auto* each : {&u, &u_before, &u_best, &p, &p_best, &q, &base, &trial, &u_first, &p_first})
+    each->reserve(k);
   step.reserve(k);
   for (auto* each : {&z, &z_new, &dz, &F, &F_new}) each->reserve(3 * k);
   DL.reserve(9 * k);
@@ -258,9 +259,18 @@ Settled settle_for_sure(const ContactBlocks& W, PileScratch& s, std::vector<Vec3
   const Settled first = settle_pile(W, s, u, p, part);
   if (first.least() <= small_residual || (part > 0 && first.least() < before / 2)) return first;
   // sweeps lead out of where Newton's method turns in a circle
-  const int sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
-  settle(W, sweeps, u, p);
-  return settle_pile(W, s, u, p, part);
+  const int most_sweeps = part > 0 ? 100 : 2000;  // redundant contacts gain a digit in 5 to 50
+  s.u_first = u;
+  s.p_first = p;
+  const int sweeps = settle(W, most_sweeps, u, p);
+  s.work += 9.0 * static_cast<double>(W.block.size()) * sweeps;
+  Settled out = settle_pile(W, s, u, p, part);
+  if (!(out.residual <= first.residual)) {  // sweeps may diverge where W has no symmetry
+    out = first;
+    u = s.u_first;
+    p = s.p_first;
+  }
+  return out;
 }
 
 }  // namespace saltus

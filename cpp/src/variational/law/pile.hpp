@@ -70,10 +70,16 @@ struct PileScratch {
   std::vector<Vec3> u, u_before, p, q, base, trial;  ///< (k) scaled rates and impulses
   std::vector<std::array<double, 2>> step;           ///< (k) by `sweep`
   std::vector<Vec3> u_best, p_best;                  ///< (k) nearest to the law so far
+  std::vector<Vec3> u_first, p_first;                ///< (m) before sweeps
   std::vector<double> z, z_new, dz, F, F_new;        ///< (r)
+
+  double work = 0;  ///< multiplications of all that was eliminated, and swept, since it was 0
 
   void reserve(std::size_t contacts);
 };
+
+/// Of `work` in a step, about: half a second. What a step goes on with then takes less.
+inline constexpr double most_pile_work = 1e9;
 
 /// How far from Coulomb's law: |p - P(p - u)|, as a part of the impulses and rates that there are.
 struct Lawlessness {

@@ -79,7 +79,7 @@ class PileIsland {
   void add_to_slope(int i, int c, int first, int n);
   bool solve_slope();
   void eliminate(int c, int end);
-  int solve_round(double rho, double part, bool& ended);
+  int solve_round(double rho, double precision, bool& ended);
   double size_of_impulses();
 
   const ContactBlocks& W_;

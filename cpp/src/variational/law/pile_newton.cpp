@@ -61,6 +61,7 @@ bool PileIsland::solve_slope() {
       std::swap(s_.reach[c], s_.reach[pivot]);
     }
     eliminate(c, end);
+    s_.work += static_cast<double>(end - c) * static_cast<double>(s_.reach[c] - c);
   }
   for (int c = r_ - 1; c >= 0; --c) {
     const Row x(s_.dz.data(), r_);

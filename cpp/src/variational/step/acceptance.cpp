@@ -32,6 +32,15 @@ int Stepper::Impl::most_impacts() const {
 /// Newton iterations of an attempt, and of those before the last one.
 int Stepper::Impl::most_work() const { return 10 * scene.options.max_impacts; }
 
+/// Of all piles in this step, whatever its attempts were good for.
+double Stepper::Impl::pile_work() const {
+  return flight.work.rows.pile.work + kick.pile.work + impact.friction.pile.work;
+}
+
+void Stepper::Impl::forget_pile_work() {
+  flight.work.rows.pile.work = kick.pile.work = impact.friction.pile.work = 0;
+}
+
 /// Shorter arcs can be tried yet, or time stepping.
 bool Stepper::Impl::halves_left() const {
   return is_last_attempt || !scene.options.strict ||
@@ -104,17 +113,23 @@ void Stepper::Impl::check_step_energy(double start) {
   if (gain > 0.3 * std::max(kinetic, report.work.cwiseAbs().sum())) fail_energy(gain);
 }
 
-/// No arc ends with bodies deeper in each other than it started. Where parts come to face each
-/// other that overlap already no shorter arc helps: that is an error where anybody can see it.
+/// No arc ends with bodies deeper in each other than it started. What an arc misses gaps by is
+/// moved apart, as far as nobody sees that; where it cannot be, shorter arcs are tried. Where parts
+/// come to face each other that overlap already no shorter arc helps: that is an error where
+/// anybody can see it.
 void Stepper::Impl::check_gaps() {
   const double most = is_last_attempt ? least_visible
                       : halves_left() ? sunk_touches
                                       : visible_touches;
-  for (int i = 0; i < node.touching; ++i) {
-    const Contact& c = node.contacts[i];
-    if (c.phi < deepest - most * pool[c.slot].touch) fail_sinking(c);
-  }
+  const auto check = [&](double touches) {
+    for (int i = 0; i < node.touching; ++i) {
+      const Contact& c = node.contacts[i];
+      if (c.phi < deepest - touches * pool[c.slot].touch) fail_sinking(c);
+    }
+  };
+  check(std::max(most, least_visible));
   lift_out();
+  check(most);
 }
 
 /// Gaps that graze 0 may stop arc after arc where none closes.

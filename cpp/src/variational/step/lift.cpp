@@ -52,10 +52,19 @@ bool find_lift(const Scene& scene, Node& node, HalfKick& kick, VecX& dq) {
 
 }  // namespace
 
-/// Energy may come back up to what there was at the arc's start: to sink is no motion.
+/// Gaps are no planes: what one lift leaves the next one takes. The first few are enough.
 void Stepper::Impl::lift_out() {
-  const double before = depth(node);
-  if (!(before > few_touches)) return;
+  constexpr int most_lifts = 4;  // 1 or 2 are usual
+  for (int k = 0; k < most_lifts; ++k) {
+    const double before = depth(node);
+    if (!(before > few_touches)) return;
+    lift_once(before);
+    if (!(depth(node) < before)) return;
+  }
+}
+
+/// Energy may come back up to what there was at the arc's start: to sink is no motion.
+void Stepper::Impl::lift_once(double before) {
   if (!node.has_factors && !set_velocity_at_node(scene, node)) return;
   const bool is_held = !flight.work.rows.active.empty();
   const double H = node_energy(scene, node), most = is_held ? std::max(H, energy) : H;

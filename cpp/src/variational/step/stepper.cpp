@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <exception>
-#include <sstream>
 #include <utility>
 
 #include "saltus/model/check_derivatives.hpp"
@@ -23,8 +22,8 @@ constexpr int most_arcs_spent = 256;
 /// Attempts at a step with many arcs that graze: those by shorter arcs graze as well.
 constexpr int most_grazing = 3;
 
-/// Arcs of time stepping in a step that others are tried beside.
-constexpr int most_stepped = 4;
+/// Of the step, for arcs of time stepping where the step is a large pile's.
+constexpr int few_halvings = 2;
 
 }  // namespace
 
@@ -53,6 +52,7 @@ void Stepper::forget() { impl_->last_is_valid = false; }
 void Stepper::Impl::step(State& state, const ForceInput& with) {
   take(with);
   report.fallbacks.clear();
+  forget_pile_work();
   const double t = state.t;
   const bool is_own = last_is_valid && state == last;  // where a step of ours ended
   bool has_guesses = is_own;
@@ -79,12 +79,15 @@ void Stepper::Impl::step(State& state, const ForceInput& with) {
       if (is_last_attempt || !(halves_help || blames_contact)) break;
     }
     if (std::exchange(has_guesses, false)) continue;
+    const bool is_large = pile_work() > most_pile_work;
     const bool is_spent =
-        arcs > most_arcs_spent || iterations > most_work() || grazes >= most_grazing;
+        is_large || arcs > most_arcs_spent || iterations > most_work() || grazes >= most_grazing;
     if (!halves_help || is_spent || halvings == scene.options.max_halvings) {
       if (scene.options.strict || !blames_contact) break;
       is_last_attempt = true;
-      halvings = scene.options.max_halvings;
+      // nothing but time stepping is left to what is spent: a few arcs of it are enough
+      halvings = is_large ? std::min(few_halvings, scene.options.max_halvings)
+                          : scene.options.max_halvings;
     } else {
       ++halvings;
     }
@@ -114,60 +117,6 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   }
   end_step(launch);
   state = last;
-}
-
-// The same, and where an arc or its impact fails, one of time stepping in its place. After a few of
-// these nothing else is tried in the step.
-void Stepper::Impl::step_at_any_price(State& state, bool is_own) {
-  clear(report);
-  start(state, is_own);
-  start_tape(state);
-  refuse("an arc by time stepping (StepReport.fallbacks tells of it)");
-  set_shift();
-  const double t_start = state.t, h = scene.options.h, H = node_energy(scene, node);
-  int stepped = 0;
-  for (double left = h; left > 0;) {
-    const StepReport told = report;
-    const State at{node.t, node.q, node.p};
-    const double tau = std::min(left, longest);
-    blames_contact = false;
-    try {
-      if (stepped > most_stepped || report.iterations > most_work()) fail_work();
-      const Launch* launch = has_approach(node) ? collide() : nullptr;
-      fly_one_arc(tau, launch);
-      const double rest = flight.work.arc.tau < left ? left - flight.work.arc.tau : 0;
-      end_arc(t_start + (h - rest));
-      left = rest;
-    } catch (const StepError&) {
-      if (!blames_contact) throw;
-      const int spent = report.iterations;  // counts towards the bound, whatever it was good for
-      report = told;
-      report.iterations = spent;
-      place_node(scene, at.t, at.q, at.p, node);
-      if (!set_velocity_at_node(scene, node) || !find_contacts(scene, node)) throw;
-      left = tau < left ? left - tau : 0;
-      fly_unlocated(tau, t_start + (h - left));
-      ++stepped;
-    }
-  }
-  check_step_energy(H);
-  end_step(nullptr);  // an approach at the end is the next step's
-  state = last;
-}
-
-void Stepper::Impl::fly_unlocated(double tau, double t) {
-  const double start = node.t, lowest = lowest_gap(node);
-  const Rung rung = step_unlocated(scene, tau, t, node, end, flight.work.scratch, unlocated);
-  ++report.arcs;
-  tell(unlocated.impulses, report);
-  report.friction_residual = std::max(report.friction_residual, unlocated.residual);
-  if (unlocated.v_middle.size() > 0) {
-    add_work(tau, unlocated.v_middle, unlocated.forces, unlocated.wrench_force);
-  }
-  report.fallbacks.push_back({start, tau, rung, unlocated.energy, unlocated.pair});
-  check_closed(lowest);
-  saltus::forget(memory);
-  middle.is_known = false;
 }
 
 void Stepper::Impl::start(const State& state, bool is_own) {
@@ -237,7 +186,9 @@ void Stepper::Impl::end_arc(double t) {
   check_energy();
   check_gaps();
   if (!has_approach(node)) check_idle_arcs();
-  if (report.iterations > most_work()) fail_work();
+  if (report.iterations > most_work() || (!is_last_attempt && pile_work() > most_pile_work)) {
+    fail_work();
+  }
 }
 
 // Resolves the impact at the node. @return what the next arc has to meet, or nullptr

@@ -75,6 +75,8 @@ struct Stepper::Impl {
   int most_impacts() const;
   int most_work() const;
   bool halves_left() const;
+  double pile_work() const;
+  void forget_pile_work();
   void note_start();
   void check_energy();
   bool is_doubtful();
@@ -83,6 +85,7 @@ struct Stepper::Impl {
   void check_gaps();
   void check_idle_arcs();
   void lift_out();  // lift.cpp
+  void lift_once(double before);
   bool place_with_contacts(const VecX& q, const VecX& p);
   void place_back();
 
