@@ -1579,6 +1579,8 @@ class Model:
         self,
         q: collections.abc.Mapping[str, typing.Any] | numpy.typing.ArrayLike | None,
         v: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        *,
+        out: LagrangianPartials | None = None,
     ) -> LagrangianPartials:
         """
         L = T - V and all its first and second partials.
@@ -1594,15 +1596,19 @@ class Model:
             [rad | m]
         v : array_like, shape (n_v,), or mapping of names to values
             [rad/s | m/s]
+        out : LagrangianPartials, optional
+            One of an earlier call, to be overwritten: what reads its arrays sees the new values. Of large
+            models this saves most of the time.
 
         Returns
         -------
         LagrangianPartials
+            `out` where it is given.
 
         Raises
         ------
         ModelError
-            On an unknown name, a wrong shape, or a value that is not finite.
+            On an unknown name, a wrong shape, or a value that is not finite; where `out` is of another size.
         """
     def link(self, name: str) -> Link:
         """
