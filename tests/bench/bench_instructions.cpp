@@ -1,5 +1,6 @@
 // A fixed amount of work for an instruction counter: bench_instructions WORKLOAD FILE prints how
-// many calls it made. WORKLOAD is step, driven, impact, rest, fall or lagrangian; FILE is as in clock.hpp.
+// many calls it made. WORKLOAD is step, driven, impact, rest, fall or lagrangian; FILE is as in
+// clock.hpp.
 //
 // Only what runs inside `saltus_bench_counted` is meant to be counted (callgrind:
 // --toggle-collect=saltus_bench_counted).
