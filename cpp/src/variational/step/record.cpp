@@ -64,6 +64,9 @@ void Stepper::Impl::record_row(const Row& row, double friction, const Vec3& P, T
   if (friction > 0) to.t_B = row.t_B;
   to.point_B = row.point_B;
   if (std::holds_alternative<Rim>(row.pair->kind)) refuse("a rim that is held at a point");
+  if (row.is_point && std::holds_alternative<Crossing>(row.pair->kind)) {
+    refuse("two edges that are held at a point");
+  }
 }
 
 /// Joint number `dry` of those with dry friction, which slides where it pushes all it can.
