@@ -1,7 +1,8 @@
 """An acrobot, driven at its elbow alone, swings up and stands still upside down after 4 s.
 
 iLQR finds a way up, Newton's method the least effort: its decrements converge quadratically, such
-as 2e-5, 3e-9, 1e-16; which they are depends on rounding on the way. To end upright to 1e-8, each plan aims off by what the one before missed.
+as 2e-5, 3e-9, 1e-16; which they are depends on rounding on the way. To end upright to 1e-8, each
+plan aims off by what the one before missed.
 """
 
 import numpy as np
