@@ -176,8 +176,8 @@ bool share_as_before(const Scene& scene, Node& node, HalfKick& kick) {
     for (int k = 0; k < c->rates(); ++k) kick.u.back()[k] = dot(scene.trees, c->row(k), node.v);
   }
   const Lawlessness law = lawlessness(W, kick.u, kick.p);
-  // more than rounding, of sums over so many, would go on to the next arc, whose half kick turns it
-  if (law.residual <= 4e-15 + 1e-16 * static_cast<double>(kick.contacts.size())) {
+  // more than rounding would go on to the next arc, whose half kick turns it round
+  if (law.residual <= 4e-15) {
     kick.residual = law.excess;
     return true;
   }

@@ -113,23 +113,17 @@ void Stepper::Impl::check_step_energy(double start) {
   if (gain > 0.3 * std::max(kinetic, report.work.cwiseAbs().sum())) fail_energy(gain);
 }
 
-/// No arc ends with bodies deeper in each other than it started. What an arc misses gaps by is
-/// moved apart, as far as nobody sees that; where it cannot be, shorter arcs are tried. Where parts
-/// come to face each other that overlap already no shorter arc helps: that is an error where
-/// anybody can see it.
+/// No arc ends with bodies deeper in each other than it started. Where parts come to face each
+/// other that overlap already no shorter arc helps: that is an error where anybody can see it.
 void Stepper::Impl::check_gaps() {
   const double most = is_last_attempt ? least_visible
                       : halves_left() ? sunk_touches
                                       : visible_touches;
-  const auto check = [&](double touches) {
-    for (int i = 0; i < node.touching; ++i) {
-      const Contact& c = node.contacts[i];
-      if (c.phi < deepest - touches * pool[c.slot].touch) fail_sinking(c);
-    }
-  };
-  check(std::max(most, least_visible));
+  for (int i = 0; i < node.touching; ++i) {
+    const Contact& c = node.contacts[i];
+    if (c.phi < deepest - most * pool[c.slot].touch) fail_sinking(c);
+  }
   lift_out();
-  check(most);
 }
 
 /// Gaps that graze 0 may stop arc after arc where none closes.
