@@ -31,26 +31,6 @@ PlacedRows place_rows(const ModelData& model, const Kinematics& kin, const Pair&
   return out;
 }
 
-/// What a change of n makes of tangents(n, axis).
-void turn_tangents(const Vec3& n, const Vec3& dn, int axis, const std::array<Vec3, 3>& d,
-                   std::array<Vec3, 3>& change) {
-  const Vec3 raw = Vec3::Unit(axis) - n[axis] * n, draw = -dn[axis] * n - n[axis] * dn;
-  change[2] = (draw - d[2] * d[2].dot(draw)) / raw.norm();
-  change[1] = change[2].cross(n) + d[2].cross(dn);
-}
-
-/// Screw of one joint of a chain at P.
-struct Screw {
-  Vec3 w, xi;
-  double sign;
-};
-
-Screw screw_of(const Tree& tree, const Kinematics& kin, const ChainJoint& k, const Vec3& P_W) {
-  const Vec6& S = kin.joint[k.joint].S;
-  const Vec3 P = P_W - kin.origin[tree.root[k.joint]];
-  return {angular(S), angular(S).cross(P) + linear(S), static_cast<double>(k.sign)};
-}
-
 bool turns_below(const Tree& tree, int j, int k) {
   return j != k && tree.is_ancestor(j, k) && !are_of_one_ball(tree, j, k);
 }
@@ -79,36 +59,38 @@ void set_frame(const ModelData& model, const Kinematics& kin, const Pair& pair,
   const GapMotion motion = gap_motion(gap);
   const PlacedRows at = place_rows(model, kin, pair, gap, choice);
   for (const ChainJoint& joint_j : pair.chain) {
-    const Screw j = screw_of(tree, kin, joint_j, at.P);
-    const Screw center = screw_of(tree, kin, joint_j, gap.center_W);
+    const Screw j = screw_at(tree, kin, joint_j.joint, at.P);
+    const Screw center = screw_at(tree, kin, joint_j.joint, gap.center_W);
     Vec6 t;
-    t << j.sign * j.w, j.sign * center.xi;
-    const bool moves_b = j.sign < 0;
+    t << joint_j.sign * j.w, joint_j.sign * center.xi;
+    const bool moves_b = joint_j.sign < 0;
     std::array<Vec3, 3> d;
     d[0] = motion.n * t;
     if (moves_b) d[0] += j.w.cross(gap.n_W);
     Vec3 dP = choice.at_a ? Vec3(motion.p_WA * t) : Vec3((motion.p_WA + motion.p_WB) * t / 2);
     if (moves_b) dP += j.xi;
     if (choice.axis >= 0) {
-      turn_tangents(gap.n_W, d[0], choice.axis, at.d, d);
+      const Tangents change = turned({at.d[1], at.d[2]}, gap.n_W, choice.axis, d[0]);
+      d[1] = change.t0;
+      d[2] = change.t1;
     } else {
       for (int i = 1; i < 3; ++i) d[i] = moves_b ? Vec3(j.w.cross(at.d[i])) : Vec3(Vec3::Zero());
     }
     const Drive& drive_j = tree.drive[joint_j.joint];
     for (const ChainJoint& joint_k : pair.chain) {
-      const Screw k = screw_of(tree, kin, joint_k, at.P);
+      const Screw k = screw_at(tree, kin, joint_k.joint, at.P);
       Vec3 change = k.w.cross(dP);
       if (turns_below(tree, joint_j.joint, joint_k.joint)) {
         change += j.w.cross(k.xi) - k.w.cross(j.xi);
       }
       const Drive& drive_k = tree.drive[joint_k.joint];
-      const double by = drive_j.multiplier * drive_k.multiplier * k.sign;
+      const double by = drive_j.multiplier * drive_k.multiplier * joint_k.sign;
       for (int i = 0; i < 3; ++i) {
         out.H[i](index(drive_k), index(drive_j)) += by * (d[i].dot(k.xi) + at.d[i].dot(change));
       }
     }
     for (int i = 0; i < 3; ++i) {
-      out.row[i][drive_j.velocity] += drive_j.multiplier * j.sign * at.d[i].dot(j.xi);
+      out.row[i][drive_j.velocity] += drive_j.multiplier * joint_j.sign * at.d[i].dot(j.xi);
     }
   }
 }

@@ -23,6 +23,15 @@ SALTUS_EXPORT int tangent_axis(const Vec3& n_W);
 /// the plane and t1 across it, exactly. Needs an axis that n is not along.
 SALTUS_EXPORT Tangents tangents(const Vec3& n_W, int axis);
 
+/// What a change dn of n makes of t = tangents(n, axis).
+SALTUS_EXPORT Tangents turned(const Tangents& t, const Vec3& n, int axis, const Vec3& dn);
+
+/// Of a unit of a joint's own velocity: how it turns what it carries, and the velocity at a point.
+struct Screw {
+  Vec3 w = Vec3::Zero(), xi = Vec3::Zero();
+};
+SALTUS_EXPORT Screw screw_at(const Tree& tree, const Kinematics& kin, int joint, const Vec3& P_W);
+
 /// Where the two touch: halfway between the witnesses, which are one point where phi = 0.
 inline Vec3 contact_point(const Gap& gap) { return (gap.p_WA + gap.p_WB) / 2; }
 

@@ -7,18 +7,6 @@
 namespace saltus {
 namespace {
 
-/// A turn and the velocity at a point.
-struct Screw {
-  Vec3 w = Vec3::Zero(), xi = Vec3::Zero();
-};
-
-/// Of a unit of the joint's own velocity, at P.
-Screw screw_of(const Tree& tree, const Kinematics& kin, int joint, const Vec3& P_W) {
-  const Vec6& S = kin.joint[joint].S;
-  const Vec3 P = P_W - kin.origin[tree.root[joint]];
-  return {angular(S), angular(S).cross(P) + linear(S)};
-}
-
 void add(double factor, const Screw& screw, Screw& sum) {
   sum.w += factor * screw.w;
   sum.xi += factor * screw.xi;
@@ -34,14 +22,6 @@ struct Slipping {
   Screw all;
 };
 
-/// What a change of n makes of the tangents.
-Tangents turned(const Slipping& s, const Vec3& dn) {
-  const Vec3& n = s.gap.n_W;
-  const Vec3 raw = Vec3::Unit(s.axis) - n[s.axis] * n, draw = -dn[s.axis] * n - n[s.axis] * dn;
-  const Vec3 d1 = (draw - s.t.t1 * s.t.t1.dot(draw)) / raw.norm();
-  return {d1.cross(n) + s.t.t1.cross(dn), d1};
-}
-
 /// By joint j: of t0.U and t1.U.
 /// @param below what the joints below j do, those of its own ball aside
 Eigen::Vector2d slip_change(const Slipping& s, const Screw& j, int sign, const Screw& below) {
@@ -52,7 +32,7 @@ Eigen::Vector2d slip_change(const Slipping& s, const Screw& j, int sign, const S
     dn += j.w.cross(s.gap.n_W);
     dP += j.xi;
   }
-  const Tangents d = turned(s, dn);
+  const Tangents d = turned(s.t, s.gap.n_W, s.axis, dn);
   const Vec3 turn = s.all.w.cross(dP) + j.w.cross(below.xi) - below.w.cross(j.xi);
   return {d.t0.dot(s.all.xi) + s.t.t0.dot(turn), d.t1.dot(s.all.xi) + s.t.t1.dot(turn)};
 }
@@ -72,6 +52,18 @@ Tangents tangents(const Vec3& n_W, int axis) {
   const Vec3 e = Vec3::Unit(axis);
   const Vec3 t1 = (e - n_W[axis] * n_W).normalized();
   return {t1.cross(n_W), t1};
+}
+
+Tangents turned(const Tangents& t, const Vec3& n, int axis, const Vec3& dn) {
+  const Vec3 raw = Vec3::Unit(axis) - n[axis] * n, draw = -dn[axis] * n - n[axis] * dn;
+  const Vec3 d1 = (draw - t.t1 * t.t1.dot(draw)) / raw.norm();
+  return {d1.cross(n) + t.t1.cross(dn), d1};
+}
+
+Screw screw_at(const Tree& tree, const Kinematics& kin, int joint, const Vec3& P_W) {
+  const Vec6& S = kin.joint[joint].S;
+  const Vec3 P = P_W - kin.origin[tree.root[joint]];
+  return {angular(S), angular(S).cross(P) + linear(S)};
 }
 
 void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair, const Vec3& P_W,
@@ -95,7 +87,7 @@ void add_slip_change(const Tree& tree, const Kinematics& kin, const Pair& pair, 
     const Drive& drive = tree.drive[k.joint];
     return k.sign * drive.multiplier * v[drive.velocity];
   };
-  for (const ChainJoint& k : pair.chain) add(rate(k), screw_of(tree, kin, k.joint, s.P), s.all);
+  for (const ChainJoint& k : pair.chain) add(rate(k), screw_at(tree, kin, k.joint, s.P), s.all);
   const int count = static_cast<int>(pair.chain.size());
   // The chain goes up from b and then down to a: those below j are before it, and behind it.
   const auto walk = [&](int sign, int from, int step) {
@@ -109,7 +101,7 @@ void add_slip_change(const Tree& tree, const Kinematics& kin, const Pair& pair, 
         add(1, ball, below);
         ball = {};
       }
-      const Screw j = screw_of(tree, kin, joint.joint, s.P);
+      const Screw j = screw_at(tree, kin, joint.joint, s.P);
       const Drive& drive = tree.drive[joint.joint];
       const Eigen::Vector2d change = factor * drive.multiplier * slip_change(s, j, sign, below);
       c0[drive.velocity] += change[0];

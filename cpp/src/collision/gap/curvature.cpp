@@ -62,10 +62,6 @@ Stationary stationary(const Gap& gap, const Mat32& E) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 /// Of a ball or a corner against a ball, a corner or a plane that stands still.
 GapMotion motion_of_point(const Gap& gap, double r_a, double r_b) {
   GapMotion out;
