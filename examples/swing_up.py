@@ -1,8 +1,8 @@
 """An acrobot, driven at its elbow alone, swings up and stands still upside down after 4 s.
 
 iLQR finds a way up, Newton's method the least effort: its decrements converge quadratically, such
-as 2e-5, 3e-9, 1e-16; which they are depends on rounding on the way. To end upright to 1e-8, each
-plan aims off by what the one before missed.
+as 2e-5, 3e-9, 1e-16 (which they are depends on the rounding of the processor's matrix products). To
+end upright to 1e-8, each plan aims off by what the one before missed.
 """
 
 import numpy as np
@@ -37,4 +37,5 @@ for weight, tolerance in [(10, 1e-2), (100, 1e-4), *[(1e3, 1e-15)] * 7]:
     decrements = max(decrements, plan.decrements[-3:], key=len) if weight == 1e3 else []
 print(f"upside down, at rest: |x - x*| below 1e-8: {abs(miss).max() < 1e-8}")
 orders = np.log(decrements[1:]) / np.log(decrements[:-1])
-print(f"each of the last decrements is below the one before to the power 1.5: {orders.min() > 1.5}")
+small = (np.array(decrements) < (1e-4, 1e-8, 1e-15)).all()
+print(f"last decrements below 1e-4, 1e-8, 1e-15: {small}, quadratic: {orders.min() > 1.5}")

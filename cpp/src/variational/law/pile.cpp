@@ -12,7 +12,7 @@ constexpr int most_rounds = 80;    ///< 5 to 20 are usual
 constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
 constexpr int most_idle = 40;      ///< rounds that halve nothing
 constexpr double unknown = 1e-5;   ///< residual of impulses by contacts that do other than they did
-constexpr int most_sweeps = 30;    ///< as much work as one or two iterations
+constexpr int light_sweeps = 30;   ///< as much work as one or two iterations
 constexpr int few = 4;             ///< contacts that Newton's method finds the way of by itself
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
 
@@ -124,7 +124,7 @@ Settled PileIsland::settle_scaled(double part) {
   if (out.residual <= settled) return out;
   factorize();
   if (out.residual > unknown && k_ > few && !has_redundant()) {
-    sweep(most_sweeps);
+    sweep(light_sweeps);
     const PileResidual now = residual();
     out = {now.part(), now.worst, 0};
     if (out.residual <= enough) return out;
