@@ -69,10 +69,6 @@ void add_own_gradient(const ModelData& model, const Packed& w, const VecX& x, co
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// The actuator pushes all that it can, or its joint bears: nothing of its own changes that.
 bool is_limited(const ForceModel& forces, const ForceValues& at, int k) {
   const Actuator& a = forces.actuators[static_cast<std::size_t>(k)];
