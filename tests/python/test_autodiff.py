@@ -115,6 +115,8 @@ def test_what_is_wrong_is_told():
         made.run(np.zeros(1), np.zeros(1), np.zeros((12, 2)))
     with pytest.raises(saltus.ModelError, match=r"q has shape \(2,\)"):
         made.run(np.zeros(2), np.zeros(1), np.zeros((12, 1)))
+    with pytest.raises(saltus.ModelError, match="h = -1; it must be positive"):
+        rollout_of(bouncer(), -1.0, {})
     with pytest.raises(TypeError, match="makes a Model of it"):
         rollout_of("model", H, {})  # type: ignore[arg-type]
 

@@ -16,6 +16,7 @@ from saltus._core import (
     ModelError,
     State,
     StepOptions,
+    Stepper,
     Trajectory,
     adjoint,
     simulate,
@@ -115,4 +116,5 @@ def rollout_of(model: Model, h: float, options: Mapping[str, Any]) -> Rollout:
         raise TypeError(f"model is a {type(model).__name__}; saltus.load_urdf makes a Model of it")
     known = dict(options)
     law, collisions = known.pop("law", ImpactLaw.nodal_energy), known.pop("collisions", True)
+    Stepper(model, h, law, collisions=collisions, **known)  # refuses what no step can have
     return Rollout(model, StepOptions(h, law, collisions, **known))
