@@ -60,9 +60,9 @@ has an energy error of 0, and its middle ball rests. [More engines](compare.md) 
 
 ## Where contact is
 
-Boxes beside each other cost no more a second than with a soft engine, what is stacked a few times
-as much; a heap that falls costs many times more, because its contacts are exact and its impacts are
-located.
+Boxes beside each other cost about as much a second as with a soft engine, what is stacked a few
+times as much; a heap that falls costs many times more, because its contacts are exact and its
+impacts are located.
 
 {contact}
 
