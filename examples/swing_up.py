@@ -1,8 +1,8 @@
 """An acrobot, driven at its elbow alone, swings up and stands still upside down after 4 s.
 
-iLQR finds a way up, Newton's method the least effort: its decrements converge quadratically, such
-as 2e-5, 3e-9, 1e-16 (which they are depends on the rounding of the processor's matrix products). To
-end upright to 1e-8, each plan aims off by what the one before missed.
+iLQR finds a way up, Newton's method the least effort: its decrements converge quadratically (how
+small the last ones are depends on the processor's rounding). To end upright to 1e-8, each plan
+aims off by what the one before missed.
 """
 
 import numpy as np
@@ -17,9 +17,8 @@ for name, joint, parent, z in (
     ("lower", "elbow", "upper", -1),
 ):
     builder.add_link(name, saltus.BodyInertia(1.0, (0, 0, -0.5), np.eye(3) / 12))
-    builder.add_joint(
-        joint, "revolute", parent=parent, child=name, X_PJ=saltus.Pose((0, 0, z)), axis=(0, 1, 0)
-    )
+    X_PJ = saltus.Pose((0, 0, z))
+    builder.add_joint(joint, "revolute", parent=parent, child=name, X_PJ=X_PJ, axis=(0, 1, 0))
 model = builder.add_motor("motor", joint="elbow").build()
 start, up = model.state(), np.array([np.pi, 0, 0, 0])  # q, v
 
