@@ -162,6 +162,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/contact_report.cpp
   cpp/src/variational/step/lift.cpp
   cpp/src/variational/step/record.cpp
+  cpp/src/variational/step/standing.cpp
   cpp/src/variational/step/start_checks.cpp
   cpp/src/variational/step/step_errors.cpp
   cpp/src/variational/step/step_input.cpp

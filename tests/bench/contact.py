@@ -82,6 +82,11 @@ def heap(side: int) -> list[Body]:
     return [Body((0.05,), tuple(place)) for place in places]
 
 
+def rolling_ball() -> Body:
+    """Beside a tower, so that what stands still is one of two that a step is made for."""
+    return Body((0.1,), (2, 0, 0.1), velocity=(1.0, 0.0, 0.0))
+
+
 def box_walls(half: float) -> list[tuple[Vector, float]]:
     return [(normal, -half) for normal in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))]
 
@@ -92,6 +97,7 @@ def scenes() -> list[Scene]:
     out += [Scene(f"tower {n}", tower(n), 0.1, rests=True) for n in (5, 10, 20)]
     out += [Scene("tower 10 at rest", tower(10), 0.5, 0.5, rests=True)]
     out += [Scene(f"pyramid {n * (n + 1) // 2}", pyramid(n), 0.1, rests=True) for n in (4, 6)]
+    out += [Scene("tower 10 at rest, a ball rolls", [*tower(10), rolling_ball()], 0.5, 0.5)]
     out += [Scene("pyramid 21 at rest", pyramid(6), 0.2, 0.3, rests=True)]
     out += [Scene("sliding boxes 16", [
         Body(b.size, b.place, velocity=(1.0, 0.3, 0.0)) for b in rows_of_boxes(16)

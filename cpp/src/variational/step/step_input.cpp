@@ -66,12 +66,20 @@ void check_input(const Model& model, const ForceInput& input) {
   }
 }
 
+namespace {
+
+bool are_same(const VecX& a, const VecX& b) { return a.size() == b.size() && a == b; }
+
+}  // namespace
+
 void Stepper::Impl::take(const ForceInput& with) {
   check_input(scene.shared, with);
   const bool has_forces = scene.model.forces.acts() || with.acts();
   if (has_forces && scene.options.law == ImpactLaw::compensated && !scene.model.forces.acts()) {
     throw ModelError("law compensated takes no applied forces; nodal_energy does");
   }
+  input_is_same = with.wrenches.empty() && input.wrenches.empty() &&
+                  are_same(input.control, with.control) && are_same(input.qfrc, with.qfrc);
   input = with;
   if (recorded) recorded->is_whole = false;
   ArcScratch& arc = flight.work.scratch;

@@ -51,6 +51,7 @@ void Stepper::forget() { impl_->last_is_valid = false; }
 // nothing else is found.
 void Stepper::Impl::step(State& state, const ForceInput& with) {
   take(with);
+  if (stands_on(state)) return stand(state);
   report.fallbacks.clear();
   forget_pile_work();
   const double t = state.t;
@@ -96,6 +97,16 @@ void Stepper::Impl::step(State& state, const ForceInput& with) {
   fail_at_last(first, why);
 }
 
+// The last step changed nothing, and this one is the same.
+bool Stepper::Impl::stands_on(const State& state) const {
+  return standing.steps_on && last_is_valid && input_is_same && !recorded && state == last;
+}
+
+void Stepper::Impl::stand(State& state) {
+  report.iterations = 0;
+  node.t = last.t = state.t += scene.options.h;
+}
+
 // Fly to the first impact, resolve it, go on for the time left.
 void Stepper::Impl::step_once(State& state, bool is_own) {
   clear(report);
@@ -131,6 +142,7 @@ void Stepper::Impl::start(const State& state, bool is_own) {
   middle.is_known = false;
   start_anew(node.broad);
   start_anew(flight.broad);
+  saltus::forget(standing);
   if (pool.is_full()) forget_pairs(node);
   place_node(scene, state.t, q, state.p, node);
   if (!scene.model.has_gaps()) place_frames(scene, node);  // for its velocity
@@ -240,6 +252,11 @@ void Stepper::Impl::end_step(const Launch* launch) {
     refuse("an impact at its end whose law matches energies");
     node.p = flight.work.arc.p_end;
     node.v = flight.work.arc.v;
+  }
+  if (launch == nullptr && report.fallbacks.empty()) {
+    stand_still(scene, last, kick, node, standing);
+  } else {
+    saltus::forget(standing);
   }
   last.t = node.t;
   last.q = node.q;

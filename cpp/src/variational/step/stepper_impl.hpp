@@ -8,6 +8,7 @@
 #include "saltus/variational/stepper.hpp"
 #include "variational/arc/finish.hpp"
 #include "variational/flight/flight.hpp"
+#include "variational/step/standing.hpp"
 #include "variational/step/step_input.hpp"
 #include "variational/step/unlocated.hpp"
 
@@ -24,7 +25,8 @@ struct Stepper::Impl {
         impact(scene),
         meter(scene.model),
         end(scene, pool),
-        unlocated(scene) {
+        unlocated(scene),
+        standing(scene) {
     for (VecX* each : {&last.q, &q_sunk}) each->setZero(scene.model.tree.n_q);
     for (VecX* each : {&lift, &p_sunk}) each->setZero(scene.model.tree.n_v);
     last.p.setZero(scene.model.tree.n_v);
@@ -40,7 +42,9 @@ struct Stepper::Impl {
 
   void step(State& state, const ForceInput& with);
   void take(const ForceInput& with);  // step_input.cpp
-  void add_work();                    // likewise
+  bool stands_on(const State& state) const;
+  void stand(State& state);
+  void add_work();  // likewise
   void add_work(double tau, const VecX& v, const ForceValues& forces, const VecX& wrench_force);
   void add_dry_work();  // likewise
   void set_shift();     // likewise
@@ -117,11 +121,13 @@ struct Stepper::Impl {
   HalfKick kick;
   ImpactScratch impact;
   EnergyMeter meter;
-  Node end;                   // of an arc by time stepping
-  Unlocated unlocated;        // likewise
-  VecX q_sunk, p_sunk, lift;  // by lift_out
-  ForceInput input;           // of the step
-  std::vector<int> damped;    // velocities whose damping may be stiff
+  Node end;             // of an arc by time stepping
+  Unlocated unlocated;  // likewise
+  Standing standing;
+  VecX q_sunk, p_sunk, lift;   // by lift_out
+  ForceInput input;            // of the step
+  bool input_is_same = false;  // as that of the step before
+  std::vector<int> damped;     // velocities whose damping may be stiff
   StepReport report;
   std::optional<Tape> recorded;  // where one is asked for
   State last;  // where the step starts; the node still holds it if the last step ended there
