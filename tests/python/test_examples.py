@@ -110,6 +110,10 @@ PREDICTED = {
         "the crank stands at 1.5281 rad, 0.2 s after it at 1.5281 rad",
     ],
     "stands_up": ["the trunk stands 0.42 m high", "the feet bear 137.34 N"],
+    "tippe_top": [
+        "its axis points up by 1.00 at first, by -0.95 after 2 s",
+        "4.0 times less",
+    ],
     "tower": [
         "the contacts of floor bear 39.240 N",
         "the contacts of box_3 bear 9.810 N",
