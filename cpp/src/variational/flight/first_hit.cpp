@@ -114,4 +114,12 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
   return false;
 }
 
+bool is_silent_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
+  if (pair.is_stop()) return false;
+  ArcScratch& s = work.scratch;
+  place_end(scene.model, work.arc.q_end, s);
+  const Gap g = pair_gap_at_end(scene.model, pair, s);
+  return is_silent(scene.model.tree, s.kin_end, pair, g);
+}
+
 }  // namespace saltus

@@ -15,4 +15,7 @@ std::optional<Hit> take_first(std::vector<Hit>& hits);
 /// in the same point, and that of the end only grazes.
 bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& work);
 
+/// A part that does not face the other at the arc's end: the node there has no such contact.
+bool is_silent_at_end(const Scene& scene, const Pair& pair, ArcWork& work);
+
 }  // namespace saltus

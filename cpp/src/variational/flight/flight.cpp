@@ -46,6 +46,12 @@ FlightOutcome no_arc(const ArcWork& work) {
   return has_arc ? FlightOutcome::law_not_met : FlightOutcome::not_converged;
 }
 
+/// What closes at the arc's end is no contact there: another pair has it.
+bool is_none(const Scene& scene, int slot, const Node& node, ArcWork& work) {
+  return is_silent_at_end(scene, node.pool[slot], work) ||
+         grazes_with_axis(scene, slot, node, work);
+}
+
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
 ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& node, Memory& memory,
                    Flight& f) {
@@ -56,7 +62,7 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
       f.ends_at == hit.slot && std::abs(phi_at_end(scene, pair, work)) <= pair.touch;
   f.closing = hit.slot;
   ImpactTime found = find_impact_time(scene, hit, node, memory, f);
-  if (found == ImpactTime::found && grazes_with_axis(scene, hit.slot, node, work)) {
+  if (found == ImpactTime::found && is_none(scene, hit.slot, node, work)) {
     found = ImpactTime::missed;
   }
   if (found == ImpactTime::found) {
