@@ -8,6 +8,9 @@
 namespace saltus {
 namespace {
 
+/// [radius] Two places that are one.
+constexpr double same_point = 1e-3;
+
 /// What was measured at the node says that the pair cannot close on the chord.
 bool is_certified(double distance, const Pair& pair, double floor, const Flight& f) {
   return distance - (f.broad.motion[pair.a] + f.broad.motion[pair.b]) > floor;
@@ -100,7 +103,6 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
   if (pair.kind != PairKind::corner || ball == nullptr || !(ball->radius > 0)) return false;
   place_end(model, work.arc.q_end, work.scratch);
   const Vec3 p_WA = pair_gap_at_end(model, pair, work.scratch).p_WA;
-  constexpr double same_point = 1e-3;  // of the radius
   for (const int i : work.rows.active) {
     const Row& row = work.rows.row[i];
     if (row.is_joint()) continue;
@@ -114,12 +116,25 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
   return false;
 }
 
-bool is_silent_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
-  if (pair.is_stop()) return false;
-  ArcScratch& s = work.scratch;
-  place_end(scene.model, work.arc.q_end, s);
-  const Gap g = pair_gap_at_end(scene.model, pair, s);
-  return is_silent(scene.model.tree, s.kin_end, pair, g);
+bool grazes_with_crossings(const Scene& scene, int rim, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
+  const Pair& pair = node.pool[rim];
+  const auto* cylinder = std::get_if<Cylinder>(&pair.on_a.shape);
+  if (!std::holds_alternative<Rim>(pair.kind) || cylinder == nullptr) return false;
+  place_end(model, work.arc.q_end, work.scratch);
+  const Vec3 p_WA = pair_gap_at_end(model, pair, work.scratch).p_WA;
+  int crossings = 0;
+  bool is_there = false;
+  for (int i = 0; i < node.touching; ++i) {
+    const int slot = node.contacts[i].slot;
+    const Pair& other = node.pool[slot];
+    if (node.pool.solid(slot) != node.pool.solid(rim)) continue;
+    if (!std::holds_alternative<RimCrossing>(other.kind)) continue;
+    ++crossings;
+    const Gap g = pair_gap_at_end(model, other, work.scratch);
+    is_there = is_there || (g.p_WA - p_WA).norm() < same_point * cylinder->radius;
+  }
+  return is_there && crossings >= 2;
 }
 
 }  // namespace saltus

@@ -15,7 +15,9 @@ std::optional<Hit> take_first(std::vector<Hit>& hits);
 /// in the same point, and that of the end only grazes.
 bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& work);
 
-/// A part that does not face the other at the arc's end: the node there has no such contact.
-bool is_silent_at_end(const Scene& scene, const Pair& pair, ArcWork& work);
+/// The lowest point of a rim that lies on an edge or a rim, in two places that touch both: it goes
+/// from one to the other, and closes with them. Where one alone touches, the other is open and is
+/// not watched before the two are level; so the rim says when that is.
+bool grazes_with_crossings(const Scene& scene, int rim, const Node& node, ArcWork& work);
 
 }  // namespace saltus
