@@ -23,6 +23,11 @@ PREDICTED = {
         "the others rest, to 1e-10 rad/s: True",
         "step 60 has the impact: one_sided",
     ],
+    "hopper": [
+        "closed to 1e-10: True, a stride of 0.1950 m",
+        "largest Floquet multiplier: 0.2919",
+        "1 landing; the floor bears 88.290 N on average",
+    ],
     "swing_up": [
         "upside down, at rest: |x - x*| below 1e-8: True",
         "last decrements below 1e-4, 1e-8, 1e-15: True, quadratic: True",

@@ -81,6 +81,7 @@ ORDER = {
         "regulate",
         "reach",
         "shooting",
+        "orbits",
     ],
     "autodiff": ["rollout", "with_jax", "with_torch"],
     "cli": ["commands", "looking", "main"],
