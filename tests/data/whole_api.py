@@ -204,6 +204,7 @@ def derivatives() -> None:
     falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
     assert not falls.converged
     assert falls.monodromy.shape == (2, 2)
+    assert callable(saltus.optimize.transcribe)
     assert callable(saltus.autodiff.jax_rollout)
     assert callable(saltus.autodiff.torch_rollout)
 
