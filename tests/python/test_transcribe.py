@@ -107,14 +107,15 @@ def test_a_guess_that_hits_nothing_finds_the_impact_that_is_planned():
     ((_, t),) = found.impacts
     v = found.v[-1, 1]
     assert v * (1.0 - t) == pytest.approx(0.3, abs=1e-8)
-    # a push is worth more the earlier it is: its force falls to 0 at the impact, and beyond it is 0
+    # a push is worth more the earlier it is: the force falls to 0 at the impact and stays there.
+    # The cost is least to 1e-10, so forces are what they should be to the root of twice that.
     k = int(t / h)
-    assert np.abs(found.control[k + 1 :]).max() < 1e-6
+    assert np.abs(found.control[k + 1 :]).max() < 1.5e-5
     assert np.all(np.diff(found.control[: k + 1, 0]) < 0)
 
 
 def test_two_impacts_in_order():
-    model, h, N = bouncer(), 0.06, 15
+    model, h, N = bouncer(), 0.1, 9
     cost = optimize.Quadratic(model, model.state(), control=1.0)
     plan = [("ball ~ floor", 0.2), ("ball ~ floor", 0.6)]
     found = optimize.transcribe(
@@ -149,7 +150,7 @@ def test_gaps_without_a_plan_stay_open():
 
 
 def test_it_turns_a_ball_joint():
-    model, zeros = spinner(), np.zeros((8, 1))
+    model, zeros = spinner(), np.zeros((5, 1))
     goal = model.state(model.integrate(model.neutral(), [0.0, 0.4, 0.0, -0.5]))
     cost = optimize.Quadratic(model, goal, control=0.01, final_q=100.0, final_v=1.0)
     ref = optimize.ilqr(model, model.state(), cost, zeros, h=0.1, second_order=True)

@@ -9,7 +9,7 @@ from tests.python.driven_models import batter, bouncer, cue, spinner
 import saltus
 from saltus import ModelError, optimize
 from saltus.optimize.pieces import Setting
-from saltus.optimize.planned import Hit, Planner, instants, moved_plan, plan_of, planned_steps
+from saltus.optimize.planned import Hit, Planner, instants, neighbours, plan_of, planned_steps
 from saltus.optimize.program import Program, overlaps
 from saltus.optimize.sparse import Triplets
 from saltus.optimize.system import System, to_bounds
@@ -187,23 +187,30 @@ def test_plans_are_steps_and_durations():
         Planner(model, H, {"law": "shadow_energy"})
 
 
-def test_impacts_at_an_end_of_their_step_go_to_the_next():
-    def steps(found):
-        return [hit.step for hit in found[0]]
+def test_impacts_at_an_end_of_their_step_are_tried_in_the_next():
+    def plans(hits, taus):
+        found = neighbours(hits, np.array(taus), 4, H)
+        return [([hit.step for hit in plan], pytest.approx(durations)) for plan, durations in found]
 
     two = [Hit(0, 1), Hit(0, 2)]
-    assert moved_plan(two, np.array([0.02, 0.03]), 4, H) is None
-    back = moved_plan(two, np.array([0.0, 0.03]), 4, H)
-    assert steps(back) == [0, 2]
-    assert back[1] == pytest.approx([0.95 * H, 0.03])
-    on = moved_plan(two, np.array([H, 0.03]), 4, H)
-    assert steps(on) == [2, 2]
-    assert on[1] == pytest.approx([0.05 * H, 0.03 - 0.05 * H])
-    behind = moved_plan(two, np.array([0.02, 0.0]), 4, H)
-    assert steps(behind) == [1, 1]
-    assert behind[1] == pytest.approx([0.02, 0.95 * H - 0.02])
-    # nothing is before the first step, nor behind the last
-    assert moved_plan([Hit(0, 0)], np.array([0.0]), 4, H) is None
-    assert moved_plan([Hit(0, 3)], np.array([H]), 4, H) is None
-    # no room for it
-    assert moved_plan(two, np.array([0.96 * H, 0.0]), 4, H) is None
+    assert plans(two, [0.02, 0.03]) == []
+    assert plans(two, [0.0, 0.03]) == [
+        ([0, 2], [0.05 * H, 0.03]),
+        ([2, 2], [0.05 * 0.03, 0.95 * 0.03]),
+    ]
+    assert plans(two, [H, 0.03]) == [
+        ([0, 2], [0.95 * H, 0.03]),
+        ([2, 2], [0.95 * 0.03, 0.05 * 0.03]),
+    ]
+    assert plans(two, [0.02, 0.0]) == [
+        ([1, 1], [0.02, 0.05 * (H - 0.02)]),
+        ([1, 3], [0.02, 0.05 * H]),
+    ]
+    # of two in a step the first can go back, and the last on
+    both = [Hit(0, 1), Hit(1, 1)]
+    assert plans(both, [0.0, 0.02]) == [([0, 1], [0.05 * H, 0.02])]
+    assert plans(both, [0.01, 0.04]) == [([1, 2], [0.01, 0.95 * H])]
+    # nothing is before the first step, nor behind the last, and no room where another is
+    assert plans([Hit(0, 0)], [0.0]) == [([1], [0.05 * H])]
+    assert plans([Hit(0, 3)], [H]) == [([2], [0.95 * H])]
+    assert plans(two, [H, 0.0])[1:] == [([1, 3], [H, 0.05 * H])]

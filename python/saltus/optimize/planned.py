@@ -12,8 +12,8 @@ from saltus.optimize.system import Array, ball_blocks, cross_matrix
 
 # An arc of this part of a step is taken for one of no duration: its end is the start, to rounding.
 SHORTEST_ARC = 1e-12
-# An impact within this part of a step's end goes to the step beyond, this part behind its end.
-EDGE, BEYOND = 1e-3, 0.05
+# An impact within this part of a step is at its end; this part from an end another plan begins.
+EDGE, FAR = 1e-3, 0.05
 
 
 @dataclass(frozen=True)
@@ -198,26 +198,45 @@ def instants(start: State, h: float, hits: Sequence[Hit], taus: Array) -> list[f
     return times
 
 
-def moved_plan(
-    hits: Sequence[Hit], taus: Array, N: int, h: float
-) -> tuple[list[Hit], Array] | None:
-    """Return a plan with impacts at an end of their step in the step beyond; None where none is.
+def neighbours(hits: Sequence[Hit], taus: Array, N: int, h: float) -> list[tuple[list[Hit], Array]]:
+    """Return plans with an impact that is at an end of its step in the steps beside it.
 
-    Within a step an impact can be anywhere, but it cannot leave it: the problem changes there.
+    Within a step an impact can be anywhere, but it cannot leave it: there the problem changes. The
+    cost has kinks at the ends, so an impact may stay at one though another is better. It begins at
+    the far end of the step beyond, or at the near end of the step behind.
     """
-    steps, taus, changed = [hit.step for hit in hits], taus.copy(), False
-    for i, k in enumerate(list(steps)):
+    steps, found = [hit.step for hit in hits], []
+    for i, k in enumerate(steps):
         own = [j for j, step in enumerate(steps) if step == k]
-        if own and i == own[0] and taus[i] < EDGE * h and k > 0:
-            earlier = sum(taus[j] for j, step in enumerate(steps) if step == k - 1)
-            if earlier < (1 - BEYOND) * h:
-                steps[i], taus[i], changed = k - 1, (1 - BEYOND) * h - earlier, True
-        elif own and i == own[-1] and sum(taus[own]) > (1 - EDGE) * h and k < N - 1:
-            later = [j for j, step in enumerate(steps) if step == k + 1]
-            if not later or taus[later[0]] > BEYOND * h:
-                steps[i], taus[i], changed = k + 1, BEYOND * h, True
-                if later:
-                    taus[later[0]] -= BEYOND * h
-    if not changed:
-        return None
-    return [Hit(hit.pair, k) for hit, k in zip(hits, steps, strict=True)], taus
+        is_early = i == own[0] and taus[i] < EDGE * h
+        is_late = i == own[-1] and float(sum(taus[own])) > (1 - EDGE) * h
+        for step, part in (
+            (k - 1, FAR if is_early else 1 - FAR),
+            (k + 1, FAR if is_early else 1 - FAR),
+        ):
+            is_first_or_last = i == (own[0] if step < k else own[-1])
+            if (is_early or is_late) and is_first_or_last and 0 <= step < N:
+                moved = placed(steps, taus, i, step, part, h)
+                if moved is not None:
+                    plan = list(hits)
+                    plan[i] = Hit(hits[i].pair, step)
+                    found.append((plan, moved))
+    return found
+
+
+def placed(
+    steps: Sequence[int], taus: Array, i: int, step: int, part: float, h: float
+) -> Array | None:
+    """Return durations where impact i goes to a step beside its own, None where is no room."""
+    out = taus.copy()
+    there = [j for j, each in enumerate(steps) if each == step]
+    if step < steps[i]:
+        room = h - float(sum(taus[there]))
+        if i + 1 < len(steps) and steps[i + 1] == steps[i]:
+            out[i + 1] += taus[i]
+    else:
+        room = float(taus[there[0]]) if there else h
+        if there:
+            out[there[0]] -= part * room
+    out[i] = part * room
+    return out if room > EDGE * h else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,7 @@ from saltus._core import Model, ModelError, State, StepError
 from saltus.optimize.costs import Cost, check_cost
 from saltus.optimize.iterate import check_numbers
 from saltus.optimize.pieces import Setting
-from saltus.optimize.planned import Planner, instants, moved_plan, plan_of, planned_steps
+from saltus.optimize.planned import Hit, Planner, instants, neighbours, plan_of, planned_steps
 from saltus.optimize.program import Program, overlaps
 from saltus.optimize.reach import MissFunction
 from saltus.optimize.solvers import Solution, Solver, solver_of
@@ -103,8 +103,9 @@ def transcribe(
 
     Notes
     -----
-    An impact that comes to an end of its step goes on in the next, and gaps that have closed
-    without a plan are held open at these states: then it is solved again. After Leyendecker,
+    An impact that comes to an end of its step is tried in the next, and gaps that have closed
+    without a plan are held open at these states: then it is solved again, for as long as that is
+    better. After Leyendecker,
     Ober-Blöbaum, Marsden and Ortiz, "Discrete mechanics and optimal control for constrained
     systems", Optimal Control Applications and Methods 31, 2010.
     """
@@ -126,8 +127,9 @@ def transcribe(
     first = [start, *states[1:]]
     setting = Setting(system, planner, cost, reach, limits, first, guess, hits, taus, [], clearance)
     with progress_bar(progress, iterations, "iterations") as report:
-        program, found, costs = in_rounds(setting, solve, tolerance, iterations, report)
-    return to_transcription(program, found, costs)
+        rounds = Rounds(solve, tolerance, iterations, report)
+        program, found = rounds.best(setting)
+    return to_transcription(program, found, rounds.costs)
 
 
 def impacts_of(system: System, start: State, control: Array, whose: str) -> list[tuple[str, float]]:
@@ -153,43 +155,75 @@ def impacts_of(system: System, start: State, control: Array, whose: str) -> list
     return found
 
 
-def in_rounds(
-    setting: Setting,
-    solve: Solver,
-    tolerance: float,
-    iterations: int,
-    report: Progress | None,
-) -> tuple[Program, Solution, list[float]]:
-    """Return the problem with the plan as it ended, what its solver found, and all costs."""
-    seen, costs = [setting.hits], list[float]()
-    best: tuple[Program, Solution] | None = None
-    for _ in range(MOST_ROUNDS):
-        program = Program(setting, tolerance, iterations, report, len(costs))
-        found = one_round(program, solve)
-        costs += [cost for cost, _ in program.noted]
-        if best is None or program.key(found.z) < best[0].key(best[1].z) or setting.clear:
-            best = program, found
-        ended = len(costs) >= iterations or found.message.startswith("stopped")
-        N, h = program.N, setting.planner.h
-        taus = found.z[program.first_tau :]
-        moved = moved_plan(setting.hits, taus, N, h)
-        if moved is not None and moved[0] in seen:
-            moved = None  # it is best at the end of a step, from both sides
-        closed = [each for each in overlaps(program, found.z) if each not in setting.clear]
-        if ended or (moved is None and not closed):
-            break
-        hits, taus = moved if moved is not None else (setting.hits, taus)
-        seen.append(hits)
-        setting = replace(
-            setting,
-            states=program.states(found.z),
-            control=program.control(found.z),
-            hits=hits,
-            taus=taus,
-            clear=setting.clear + closed,
+@dataclass
+class Rounds:
+    """Plans that are solved one after the other, and the best so far."""
+
+    solve: Solver
+    tolerance: float
+    iterations: int
+    report: Progress | None
+    costs: list[float] = field(default_factory=list)
+    rounds: int = 0
+    is_stopped: bool = False
+
+    def round(self, setting: Setting) -> tuple[Program, Solution]:
+        """Return the problem of a setting, and what the solver finds."""
+        program = Program(setting, self.tolerance, self.iterations, self.report, len(self.costs))
+        found = one_round(program, self.solve)
+        self.costs += [cost for cost, _ in program.noted]
+        self.rounds += 1
+        self.is_stopped = (
+            self.rounds >= MOST_ROUNDS
+            or len(self.costs) >= self.iterations
+            or found.message.startswith("stopped")
         )
-    assert best is not None  # there was a round
-    return *best, costs
+        return program, found
+
+    def cleared(self, setting: Setting) -> tuple[Program, Solution]:
+        """Return what a plan comes to with gaps held open that had closed without a plan."""
+        while True:
+            program, found = self.round(setting)
+            setting = program.setting
+            closed = [each for each in overlaps(program, found.z) if each not in setting.clear]
+            if self.is_stopped or not closed:
+                return program, found
+            setting = continued(program, found, setting.hits, found.z[program.first_tau :])
+            setting = replace(setting, clear=setting.clear + closed)
+
+    def best(self, setting: Setting) -> tuple[Program, Solution]:
+        """Return the plan that no neighbour of it betters, and what it comes to."""
+        program, found = self.cleared(setting)
+        tried = [[(hit, 0.5) for hit in setting.hits]]
+        while not self.is_stopped:
+            taus, h = found.z[program.first_tau :], setting.planner.h
+            least = program.key(found.z)
+            for hits, durations in neighbours(program.setting.hits, taus, program.N, h):
+                start = [
+                    (hit, round(float(tau) / h, 1))
+                    for hit, tau in zip(hits, durations, strict=True)
+                ]
+                if start in tried or self.is_stopped:
+                    continue
+                tried.append(start)
+                other = self.cleared(continued(program, found, hits, durations))
+                if is_as_good(other[0].key(other[1].z), least):
+                    program, found = other
+                    break
+            else:
+                break
+        return program, found
+
+
+def is_as_good(key: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether a result is not worse: two plans may meet at an end of a step, to rounding."""
+    return (key[0], key[1] - 1e-9 * abs(key[1])) <= other
+
+
+def continued(program: Program, found: Solution, hits: list[Hit], taus: Array) -> Setting:
+    """Return a setting that begins where a solver ended, with another plan."""
+    states, control = program.states(found.z), program.control(found.z)
+    return replace(program.setting, states=states, control=control, hits=hits, taus=taus)
 
 
 def one_round(program: Program, solve: Solver) -> Solution:
