@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from saltus.optimize.curvature import STEP, hessian
-from saltus.optimize.pieces import Pieces
+from saltus.optimize.pieces import Node, Pieces
 from saltus.optimize.system import Array
 
 
@@ -35,9 +35,7 @@ class Curved:
         if self.of_step is None:
             return g
         if not last:
-            step = program.step(k, node.state, u, y[n + n_u :])
-            slopes = program.landing(k, step)[1]
-            by = step.gaps_by.T @ self.of_gaps - step.by.T @ (slopes.T @ self.of_step)
+            by = self.pulled(node, u, y[n + n_u :])
             g += np.concatenate([node.chart.T @ by[:n], by[n:]])
         row = program.first_u + len(program.setting.hits)
         missed = program.misses(node)[1] if last else np.zeros((0, n))
@@ -47,6 +45,20 @@ class Curved:
             if at == k:
                 g[:n] += self.multipliers[row + i] * program.open_gap(pair, node)[1:]
         return g
+
+    def pulled(self, node: Node, u: Array, taus: Array) -> Array:
+        """Return the gradient of the step's constraints by state, controls and durations."""
+        program, k = self.program, self.k
+        assert self.of_step is not None
+        if len(taus):
+            step = program.step(k, node.state, u, taus)
+            back = program.landing(k, step.end)[1].T @ self.of_step
+            return np.asarray(step.gaps_by.T @ self.of_gaps - step.by.T @ back)
+        whole, half = program.setting.planner.whole, program.n // 2  # no matrix is needed
+        end = whole.advance(node.state, control=u if len(u) else None)
+        back = program.landing(k, end)[1].T @ self.of_step
+        by = whole.vjp(-back[:half], -back[half:])
+        return np.concatenate([by.q, by.p, by.control])
 
     def hessian(self, y: Array) -> Array:
         """Return the Hessian at inputs y, inside the ranges where differences need it."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from saltus._core import ModelError, State, StepError
-from saltus.optimize.costs import Cost, check, to_state
+from saltus.optimize.costs import Cost, check
 from saltus.optimize.planned import Hit, PlannedStep, Planner
 from saltus.optimize.reach import MissFunction
 from saltus.optimize.sparse import Indices
@@ -89,10 +89,10 @@ class Pieces:
         taus = z[self.first_tau + np.array(self.by_step[k], dtype=int)]
         return self.setting.system.inside(u, 1e-13), np.clip(taus, 0, self.setting.planner.h)
 
-    def landing(self, k: int, step: PlannedStep) -> tuple[Array, Array]:
+    def landing(self, k: int, end: State) -> tuple[Array, Array]:
         """Return the end of step k from the guess of state k + 1, and the slope of that."""
         system, half = self.setting.system, self.n // 2
-        moved = system.difference(self.setting.states[k + 1], step.end)
+        moved = system.difference(self.setting.states[k + 1], end)
         slopes = np.eye(self.n)
         slopes[:half, :half] = difference_slopes(system.balls, moved[:half])
         return moved, slopes
@@ -121,7 +121,11 @@ class Pieces:
         term = cost.stage(k, x.q, v, u) if k < self.N else cost.final(x.q, v)
         what = f"step {k}" if k < self.N else "the last state"
         check(term, self.n + len(u), what)
-        g = to_state(system, x, term[1], term[2])[0]
+        g, half = np.array(term[1], dtype=float), self.n // 2
+        by_v = g[half : self.n].copy()
+        if np.any(by_v):  # v is a function of q and p
+            g[half : self.n] = 0
+            g[: self.n] += by_v @ system.velocity_slopes(x)[1]
         return float(term[0]), np.concatenate([node.chart.T @ g[: self.n], g[self.n :]])
 
     def open_gap(self, pair: int, node: Node) -> Array:

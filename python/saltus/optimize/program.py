@@ -104,7 +104,7 @@ class Program(Pieces):
         """Return the constraints' values, (m,)."""
         rows = []
         for k, step in enumerate(self.steps(z)):
-            rows.append(z[k * self.n : (k + 1) * self.n] - self.landing(k, step)[0])
+            rows.append(z[k * self.n : (k + 1) * self.n] - self.landing(k, step.end)[0])
         rows += [step.gaps for step in self._steps]
         rows.append(self.misses(self.node(self.N, z))[0])
         rows += [self.open_gap(pair, self.node(k, z))[:1] for pair, k in self.setting.clear]
@@ -116,7 +116,7 @@ class Program(Pieces):
         out, row = Blocks(), 0
         steps, half = self.steps(z), np.arange(self.n)
         for k, step in enumerate(steps):
-            by = -(self.landing(k, step)[1] @ step.by)
+            by = -(self.landing(k, step.end)[1] @ step.by)
             out.add(row, k * self.n + half, np.eye(self.n))
             self.add_inputs(out, row, k, by, z)
             row += self.n
