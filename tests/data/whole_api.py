@@ -201,6 +201,10 @@ def derivatives() -> None:
     gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
     assert gradient.q.shape == (1,)
     assert saltus.optimize.Quadratic is not None
+    falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
+    assert not falls.converged
+    assert falls.monodromy.shape == (2, 2)
+    assert callable(saltus.optimize.transcribe)
     assert callable(saltus.autodiff.jax_rollout)
     assert callable(saltus.autodiff.torch_rollout)
 

@@ -61,3 +61,30 @@ def puck() -> saltus.Model:
     builder.add_shape("puck", saltus.Sphere(0.1))
     builder.set_default_contact(friction=0.3, restitution=0.5)
     return builder.add_motor("push", joint="x").build()
+
+
+def walled() -> saltus.Model:
+    """Return 2 kg on a rail, driven, 1 m from an elastic wall."""
+    builder = ModelBuilder().set_gravity((0, 0, 0)).add_half_space("wall", (-1, 0, 0), -1.1)
+    builder.add_body("cart", saltus.Sphere(0.1), mass=2.0, joint="prismatic")
+    return builder.add_motor("force", joint="cart").build()
+
+
+def cue() -> saltus.Model:
+    """Return a driven ball and one that it may strike, elastic, on a rail."""
+    builder = ModelBuilder().set_gravity((0, 0, 0))
+    for name, x in (("cue", 0.0), ("struck", 0.5)):
+        builder.add_body(name, saltus.Sphere(0.1), mass=1.0, X=Pose((x, 0, 0)), joint="prismatic")
+    return builder.add_motor("force", joint="cue").build()
+
+
+def batter() -> saltus.Model:
+    """Return an acrobot with knobs, and a free capsule that these may strike, e = 0.7."""
+    builder = acrobot().builder()
+    for link, z in (("lower", -1.0), ("upper", -0.5)):
+        builder.add_shape(link, saltus.Sphere(0.1), Pose((0, 0, z)))
+    builder.add_link("ball", saltus.solid_sphere(0.3, 0.1))
+    X = Pose((0.7, 0.1, -1.5))
+    builder.add_joint("free", "floating", parent="world", child="ball", X_PJ=X)
+    builder.add_shape("ball", saltus.Capsule(0.1, 0.3))
+    return builder.set_default_contact(restitution=0.7).build()

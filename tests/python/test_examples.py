@@ -23,6 +23,16 @@ PREDICTED = {
         "the others rest, to 1e-10 rad/s: True",
         "step 60 has the impact: one_sided",
     ],
+    "hopper": [
+        "closed to 1e-10: True, a stride of 0.1950 m",
+        "largest Floquet multiplier: 0.2919",
+        "1 landing; the floor bears 88.290 N on average",
+    ],
+    "off_a_wall": [
+        "converged: True, the cart meets the wall at 0.5000 s",
+        "effort 192.30 N^2 s, of a force that varies freely 192",
+        "back at rest to 1e-8: True",
+    ],
     "swing_up": [
         "upside down, at rest: |x - x*| below 1e-8: True",
         "last decrements below 1e-4, 1e-8, 1e-15: True, quadratic: True",

@@ -49,6 +49,18 @@ def draw_bat(ax: plt.Axes) -> None:
     ax.legend(frameon=False)
 
 
+def draw_hopper(ax: plt.Axes) -> None:
+    run = result_of("hopper")["gait"].run(2)
+    bodies = {link: run.poses(link)[:, [0, 2], 3] for link in ("body", "foot")}
+    for link, color in (("body", BLUE), ("foot", ORANGE)):
+        ax.plot(*bodies[link].T, color=color, label=link)
+    for k in range(0, len(run.t), 6):
+        x, z = np.transpose([bodies[link][k] for link in bodies])
+        ax.plot(x, z, color="0.7", lw=0.8, zorder=0)
+    ax.set(title="A hopper's gait, two strides", xlabel="x [m]", ylabel="z [m]")
+    ax.legend(frameon=False)
+
+
 def draw_misses(ax: plt.Axes) -> None:
     for example, color, name in (
         ("bat_a_ball", ORANGE, "bat [m]"),
@@ -59,9 +71,24 @@ def draw_misses(ax: plt.Axes) -> None:
     ax.legend(frameon=False)
 
 
+def draw_way(ax: plt.Axes) -> None:
+    found = result_of("off_a_wall")["found"]
+    ax.plot(found.t, found.q[:, 0], ".-", color=BLUE, ms=4)
+    ax.axhline(1.0, color="0.5", lw=0.8)
+    ax.text(0.0, 0.96, "wall", va="top", color="0.4")
+    ax.set(title="A cart is driven off a wall", xlabel="t [s]", ylabel="x [m]")
+
+
+def draw_force(ax: plt.Axes) -> None:
+    found = result_of("off_a_wall")["found"]
+    ax.step(found.t, [*found.control[:, 0], found.control[-1, 0]], where="post", color=ORANGE)
+    ax.set(title="Its force, of least effort", xlabel="t [s]", ylabel="force [N]")
+
+
 def main() -> None:
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
-    for draw, ax in zip((draw_acrobot, draw_bat, draw_misses), axes, strict=True):
+    figure, axes = plt.subplots(2, 3, figsize=(12, 7.5), layout="constrained")
+    draws = (draw_acrobot, draw_bat, draw_misses, draw_hopper, draw_way, draw_force)
+    for draw, ax in zip(draws, axes.flat, strict=True):
         draw(ax)
         ax.spines[["top", "right"]].set_visible(False)
     page = io.BytesIO()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -40,13 +41,13 @@ class Reach:
         rows, goals = [], []
         for name, value in (q or {}).items():
             i = model.coordinate(name)
-            at = [j for j, each in enumerate(model.velocity_names) if moves(model, i, each, j)]
-            if not at:
+            j = rate_of(model, i)
+            if j is None:
                 raise ModelError(
                     f"q of {name} is a part of a quaternion; a function (q, v) to misses and their "
                     "derivatives compares orientations"
                 )
-            rows.append((i, at[0]))
+            rows.append((i, j))
             goals.append(float(value))
         self.q, n_q = rows, len(rows)
         self.v = [model.velocity_index(name) for name in (v or {})]
@@ -66,12 +67,34 @@ class Reach:
         return at - self.goals, self.slopes
 
 
-def moves(model: Model, i: int, velocity: str, j: int) -> bool:
-    """Whether velocity j is the rate of coordinate i."""
-    dv = np.zeros(model.n_v)
-    dv[j] = 1e-3
+def rate_of(model: Model, i: int) -> int | None:
+    """Return which velocity is the rate of coordinate i, None for parts of quaternions."""
     q = model.neutral()
-    return abs(model.integrate(q, dv)[i] - q[i] - 1e-3) < 1e-12 and bool(velocity)
+    for j, dv in enumerate(1e-3 * np.eye(model.n_v)):
+        if abs(model.integrate(q, dv)[i] - q[i] - 1e-3) < 1e-12:
+            return j
+    return None
+
+
+class Problem(Protocol):
+    """What Newton's method solves: m unknowns, 0 at the guess, that are to make misses zero."""
+
+    @property
+    def m(self) -> int:
+        """How many unknowns there are."""
+        ...
+
+    def path(self, x: Array) -> Rollout:
+        """Return the motion that unknowns make."""
+        ...
+
+    def misses(self, path: Rollout) -> tuple[Array, Array]:
+        """Return the misses, (r,), and their derivatives by the last state, (r, 2 n_v)."""
+        ...
+
+    def jacobian(self, path: Rollout) -> tuple[Array, list[Smoothness]]:
+        """Return the derivative of the misses by the unknowns, (r, m), and verdicts on steps."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -130,6 +153,11 @@ class Shooting:
     control: Array
     unknowns: Unknowns
     miss: MissFunction
+
+    @property
+    def m(self) -> int:
+        """How many unknowns there are."""
+        return self.unknowns.m
 
     def path(self, x: Array) -> Rollout:
         """Return the motion that unknowns make."""

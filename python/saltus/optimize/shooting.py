@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from saltus._core import Model, ModelError, Smoothness, State, StepError
 from saltus.optimize.iterate import check_numbers
-from saltus.optimize.reach import MissFunction, Shooting, to_unknowns
+from saltus.optimize.reach import MissFunction, Problem, Shooting, to_unknowns
 from saltus.optimize.system import Array, Rollout, System, to_controls
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.simulate import simulate
@@ -168,10 +168,10 @@ def shoot(
 
 
 def by_newton(
-    problem: Shooting, iterations: int, tolerance: float, report: Progress | None
+    problem: Problem, iterations: int, tolerance: float, report: Progress | None
 ) -> tuple[Array, list[float], str]:
     """Return the unknowns, the misses on the way, and why it ended."""
-    x = np.zeros(problem.unknowns.m)
+    x = np.zeros(problem.m)
     path = problem.path(x)
     r = problem.misses(path)[0]
     misses = [float(np.abs(r).max())]
@@ -197,14 +197,14 @@ def by_newton(
                 report((i + 1) / iterations)
     except KeyboardInterrupt:
         message = f"stopped after {len(misses) - 1} iterations"
-        print(f"saltus: {message}; the shot is the best so far", file=sys.stderr)
+        print(f"saltus: {message}; what it returns is the best so far", file=sys.stderr)
     if misses[-1] <= tolerance:
         message = "converged"
     return x, misses, message
 
 
 def shorter(
-    problem: Shooting, x: Array, step: Array, r: Array
+    problem: Problem, x: Array, step: Array, r: Array
 ) -> tuple[Array, Rollout, Array] | None:
     """Return the longest part 1, 1/2, 1/4 ... of a step that makes the misses less."""
     alpha = 1.0
@@ -215,7 +215,7 @@ def shorter(
             new = problem.misses(path)[0]
             if np.linalg.norm(new) < (1 - 1e-4 * alpha) * np.linalg.norm(r):
                 return trial, path, new
-        except StepError:
+        except (StepError, ModelError):  # as where the start overlaps
             pass  # as a miss
         alpha *= 0.5
     return None

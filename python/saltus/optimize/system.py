@@ -158,13 +158,18 @@ def ball_blocks(model: Model) -> list[slice]:
     return blocks
 
 
+def cross_matrix(a: Array) -> Array:
+    """Return [a], (3, 3), with [a] b = a x b."""
+    x, y, z = a
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
 def turn_slopes(theta: Array) -> Array:
     """Return J, (3, 3), with log(exp(eta) exp(theta)) = theta + J eta to first order.
 
     The inverse of SO(3)'s left Jacobian: 1 - [theta]/2 + c [theta]^2.
     """
-    x, y, z = theta
-    W = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    W = cross_matrix(theta)
     angle = float(np.linalg.norm(theta))
     if angle < 1e-3:  # the series; the closed form cancels
         c = 1 / 12 + angle**2 / 720
