@@ -181,6 +181,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/kick_derivative.cpp
   cpp/src/derivatives/parameters.cpp
   cpp/src/derivatives/program.cpp
+  cpp/src/derivatives/rubbing.cpp
   cpp/src/derivatives/small_products.cpp
   cpp/src/derivatives/step_derivative.cpp
   cpp/src/derivatives/verdict.cpp

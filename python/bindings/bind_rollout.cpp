@@ -1,6 +1,7 @@
 // Rollout floor: many steps in a row, with the interpreter's lock released.
 #include "bindings.hpp"
 #include "control.hpp"
+#include "named_gradient.hpp"
 #include "progress.hpp"
 #include "saltus/rollout/adjoint.hpp"
 #include "saltus/rollout/simulate.hpp"
@@ -100,7 +101,7 @@ StepError, JammedError
     As `Stepper.advance`.
 )";
 
-using Gradient = std::tuple<VecX, VecX, MatX, MatX, double, ModelGradient>;
+using Gradient = std::tuple<VecX, VecX, MatX, MatX, double, NamedModelGradient>;
 
 Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& t, const MatX& q,
                     const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat) {
@@ -111,8 +112,12 @@ Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& 
   };
   const py::gil_scoped_release release;
   RunGradient g = adjoint(model, options, rows, q_hat, p_hat, goes_on);
-  return {std::move(g.q),    std::move(g.p), std::move(g.control), std::move(g.qfrc), g.h,
-          std::move(g.model)};
+  return {std::move(g.q),
+          std::move(g.p),
+          std::move(g.control),
+          std::move(g.qfrc),
+          g.h,
+          with_names(model, std::move(g.model))};
 }
 
 template <auto field>

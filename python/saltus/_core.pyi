@@ -3923,8 +3923,9 @@ class Smoothness(enum.Enum):
 
     smooth: one derivative in all directions. selection: several contacts closed at one instant, and
     their order changes it; it is that of the order that was taken, others differ by `spread`.
-    one_sided: contacts touch without pushing, or an impact is at an end of the step; it holds while
-    `weak` pairs keep opening. order_dependent: the outcome itself depends on the order, and the
+    one_sided: contacts touch without pushing, or an impact is at an end of the step, and it holds while
+    `weak` pairs keep opening; or a contact is at the edge of its friction cone, and it holds while that
+    sticks. order_dependent: the outcome itself depends on the order, and the
     derivative is of one side of a jump. grazing: an impact so weak that it is lost by a change of the
     start as small as `depth`.
     """
@@ -3951,11 +3952,15 @@ class StepDirection:
         [s] of the step's duration.
     restitution : numpy.ndarray, shape (impacts,)
         Of each impact's restitution.
+    friction : numpy.ndarray, shape (rubbing,)
+        Of the coefficient of each pair in `StepDerivative.rubbing`.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def control(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def h(self) -> float: ...
     @property
@@ -3984,6 +3989,10 @@ class ModelGradient:
         By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
         with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
         bias_l -kp: the first less the third; by its kd: less the last.
+    restitution, friction : dict of str to float
+        By what happens between the two shapes of a pair, by the pair's name: of the pairs that rebounded
+        and of those that slid. Of all others it is 0. By one number that all pairs have it is the sum.
+        A pair whose restitution is 0 does not rebound, and is none of these.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -3994,9 +4003,13 @@ class ModelGradient:
     @property
     def damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
+    def friction(self) -> dict[str, float]: ...
+    @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def rest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def restitution(self) -> dict[str, float]: ...
     @property
     def stiffness(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
@@ -4076,6 +4089,10 @@ class StepDerivative:
         By the duration. Empty where forces are functions, whose derivatives by time nobody tells.
     restitution : numpy.ndarray, shape (2 n_v, impacts)
         By each impact's restitution.
+    friction : numpy.ndarray, shape (2 n_v, rubbing)
+        By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
+    rubbing : list of str
+        Names of the pairs that pushed with friction, in arcs or impacts.
     smoothness : Smoothness
     impacts : list of ImpactDerivative
     """
@@ -4086,6 +4103,8 @@ class StepDerivative:
     @property
     def B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
     def h(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def impacts(self) -> list[ImpactDerivative]: ...
@@ -4093,6 +4112,8 @@ class StepDerivative:
     def qfrc(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def restitution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def rubbing(self) -> list[str]: ...
     @property
     def smoothness(self) -> Smoothness: ...
 
@@ -4210,6 +4231,7 @@ class Stepper:
         dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
+        dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4222,7 +4244,7 @@ class Stepper:
 
         Parameters
         ----------
-        dq, dp, du, dqfrc, dh, drestitution
+        dq, dp, du, dqfrc, dh, drestitution, dfriction
             As in `jvp`.
 
         Returns
@@ -4251,6 +4273,7 @@ class Stepper:
         dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
+        dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4273,6 +4296,8 @@ class Stepper:
             [s] of the step's duration.
         drestitution : array_like, shape (impacts,), optional
             Of each impact's restitution.
+        dfriction : float or array_like, shape (rubbing,)
+            Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
 
         Returns
         -------

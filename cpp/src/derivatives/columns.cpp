@@ -17,9 +17,11 @@ Eigen::Index count_of(const ModelData& model, Input input, const StepProgram& pr
     case Input::qfrc:
       return model.tree.n_v;
     case Input::restitution:
+      return program.n_impacts;
+    case Input::friction:
       break;
   }
-  return program.n_impacts;
+  return static_cast<Eigen::Index>(program.friction.pairs.size());
 }
 
 /// Column c of the input, but for the state, which is in Z.
@@ -29,6 +31,7 @@ StepDirection unit_of(Input input, Eigen::Index columns, Eigen::Index c) {
   if (input == Input::control) by.control = unit;
   if (input == Input::qfrc) by.qfrc = unit;
   if (input == Input::restitution) by.restitution = unit;
+  if (input == Input::friction) by.friction = unit;
   return by;
 }
 

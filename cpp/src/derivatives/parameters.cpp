@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace saltus {
 namespace {
@@ -100,6 +101,7 @@ void ParameterGradient::start(const ModelData& model) {
   body.setZero(model.tree.joints(), 10);
   for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
   actuators.setZero(model.forces.n_u(), 4);
+  restitution.clear();
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
 }
 
@@ -145,6 +147,18 @@ MatX by_link(const ModelData& model, const ParameterGradient& gradient) {
     if (link.joint < 0) continue;
     out.row(link.index) = of_link(gradient.body.row(link.joint).transpose(), link.X_JL).transpose();
   }
+  return out;
+}
+
+std::vector<PairGradient> by_pair(const ParameterGradient& gradient, const Rubbing& friction) {
+  std::map<int, PairGradient> all;
+  const auto of = [&](int pair) -> PairGradient& {
+    return all.try_emplace(pair, PairGradient{pair, 0, 0}).first->second;
+  };
+  for (const auto& [pair, by_e] : gradient.restitution) of(pair).restitution += by_e;
+  for (const int pair : friction.pairs) of(pair).friction += friction.of(pair);
+  std::vector<PairGradient> out;
+  for (const auto& each : all) out.push_back(each.second);
   return out;
 }
 

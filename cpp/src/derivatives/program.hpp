@@ -56,6 +56,7 @@ struct StepProgram {
   Tangent motion;          ///< (v, f) there
   bool tells_time = true;  ///< no force is a function of time whose derivative is not told
   std::string timed;       ///< the name of one that is
+  Rubbing friction;        ///< of the pairs that rub
   VecX dQ, zero;           ///< scratch
 };
 

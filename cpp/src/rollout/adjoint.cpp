@@ -1,6 +1,7 @@
 #include "saltus/rollout/adjoint.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace saltus {
 namespace {
@@ -21,6 +22,7 @@ struct Backwards {
   Stepper stepper;
   StepDerivatives derivatives;
   std::vector<Tape> tapes;
+  std::map<int, PairGradient> pairs;  ///< sums, by number
   Eigen::Index count = 0;
 
   Backwards(const Model& with, const StepOptions& options, const RunRows& of,
@@ -29,6 +31,12 @@ struct Backwards {
 
   void ask() {
     if (goes_on && count++ % 256 == 0) goes_on();
+  }
+
+  void add(const PairGradient& each) {
+    PairGradient& sum = pairs.try_emplace(each.pair, PairGradient{each.pair, 0, 0}).first->second;
+    sum.restitution += each.restitution;
+    sum.friction += each.friction;
   }
 
   ForceInput input_of(Eigen::Index k) const {
@@ -74,6 +82,7 @@ struct Backwards {
     to.model.damping += by_model.damping;
     to.model.armature += by_model.armature;
     to.model.actuators += by_model.actuators;
+    for (const PairGradient& each : by_model.pairs) add(each);
     hat.q = std::move(back.q);
     hat.p = std::move(back.p);
   }
@@ -127,6 +136,7 @@ RunGradient adjoint(const Model& model, const StepOptions& options, const RunRow
     }
     last = first;
   }
+  for (const auto& each : run.pairs) out.model.pairs.push_back(each.second);
   out.q = std::move(hat.q);
   out.p = std::move(hat.p);
   return out;

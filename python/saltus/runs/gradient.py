@@ -35,6 +35,9 @@ class RunGradient:
         By the joints' own, likewise.
     actuators : numpy.ndarray, shape (n_u, 4)
         By what the actuators have, likewise.
+    restitution, friction : dict of str to float
+        By the restitution and the coefficient of friction of each pair that rebounded or slid,
+        likewise; by one number that all pairs have: the sum.
     """
 
     q: Array
@@ -48,6 +51,20 @@ class RunGradient:
     damping: Array
     armature: Array
     actuators: Array
+    restitution: dict[str, float]
+    friction: dict[str, float]
+
+
+BY_MODEL = (
+    "inertia",
+    "stiffness",
+    "rest",
+    "damping",
+    "armature",
+    "actuators",
+    "restitution",
+    "friction",
+)
 
 
 def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
@@ -100,5 +117,5 @@ def gradient(run: Recording, q_hat: npt.ArrayLike, p_hat: npt.ArrayLike) -> RunG
     q, p, control, qfrc, h, of_model = adjoint(
         run.model, run.options, run.t, run.q, run.p, run.control, by_q, by_p
     )
-    names = ("inertia", "stiffness", "rest", "damping", "armature", "actuators")
-    return RunGradient(q, p, control, qfrc, h, **{name: getattr(of_model, name) for name in names})
+    parts = {name: getattr(of_model, name) for name in BY_MODEL}
+    return RunGradient(q, p, control, qfrc, h, **parts)
