@@ -216,3 +216,30 @@ def test_a_run_by_friction_and_restitution():
     mu, e = sum(g.friction.values()), sum(g.restitution.values())
     assert mu == pytest.approx(difference(lambda x: cost(x, 0), 1e-5)[0], rel=1e-6)
     assert e == pytest.approx(difference(lambda x: cost(0, x), 1e-5)[0], rel=1e-6)
+
+
+def test_a_contact_that_slides_in_the_kick_alone():
+    """Where an arc ends a corner slides by Coulomb's law at that instant, not as in the arc."""
+    random, h = np.random.default_rng(1), 1 / 148
+    turns = random.normal(size=(8, 3, 4))[1]
+    v = [*turns[1, :3] / 2, *3 * turns[2, :3]]
+
+    def made(friction: float) -> saltus.Trajectory:
+        builder = ModelBuilder().add_floor(friction=friction, restitution=0.01)
+        builder.add_body("cube", saltus.Box((0.0524,) * 3), mass=0.37, joint="floating")
+        model = builder.build()
+        q = model.normalized([0, 0, 0.15, *turns[0]])
+        return saltus.simulate(model, q, v, duration=16 * h, h=h, progress=False)
+
+    friction = 0.05 + 33 * 0.0075
+    run = made(friction)
+    c = np.array([1.0, -0.5, 2.0, 0.3, 0.2, -0.4])
+    g = run.gradient(c, 2 * c)
+
+    def cost(x: float) -> Array:
+        end = made(friction + x)
+        off = run.model.difference(run.q[-1], end.q[-1])
+        return np.atleast_1d(c @ off + 2 * c @ (end.p[-1] - run.p[-1]))
+
+    # steps' own tolerance of 1e-12 over those of the differences, and a run of 16
+    assert sum(g.friction.values()) == pytest.approx(difference(cost, 1e-5)[0], rel=1e-6)
