@@ -169,6 +169,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/time_stepping.cpp
   cpp/src/variational/step/unlocated.cpp
   # derivatives
+  cpp/src/derivatives/applied_derivative.cpp
   cpp/src/derivatives/arc_derivative.cpp
   cpp/src/derivatives/columns.cpp
   cpp/src/derivatives/dense_arc.cpp

@@ -50,7 +50,8 @@ VecX to_frictions(SharedStepper& s, const PerContact& dfriction) {
 
 StepDirection to_direction(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
-                           const std::optional<VecX>& drestitution, const PerContact& dfriction) {
+                           const std::optional<VecX>& drestitution, const PerContact& dfriction,
+                           const std::optional<MatX>& dforces) {
   const Model& model = s.stepper.model();
   StepDirection d;
   const auto vector = [&](const Velocities& x, const char* what) {
@@ -63,14 +64,16 @@ StepDirection to_direction(SharedStepper& s, const Velocities& dq, const Velocit
   d.h = dh;
   if (drestitution) d.restitution = *drestitution;
   d.friction = to_frictions(s, dfriction);
+  if (dforces) d.forces = *dforces;
   return d;
 }
 
 template <auto product>
 std::pair<VecX, VecX> push(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
-                           const std::optional<VecX>& drestitution, const PerContact& dfriction) {
-  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, drestitution, dfriction);
+                           const std::optional<VecX>& drestitution, const PerContact& dfriction,
+                           const std::optional<MatX>& dforces) {
+  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces);
   StateDirection out = s.derive([&](StepDerivatives& all) { return (all.*product)(d); });
   return {std::move(out.q), std::move(out.p)};
 }
@@ -130,6 +133,7 @@ void bind_step_derivative(py::module_& m) {
       .def_property_readonly("restitution", [](const D& d) { return d.core.restitution; })
       .def_property_readonly("friction", [](const D& d) { return d.core.friction; })
       .def_readonly("rubbing", &D::rubbing)
+      .def_property_readonly("forces", [](const D& d) { return d.core.forces; })
       .def_property_readonly("smoothness", [](const D& d) { return d.core.smoothness; })
       .def_readonly("impacts", &D::impacts)
       .def("__repr__", [](const D& d) {
@@ -157,6 +161,8 @@ void bind_model_gradient(py::module_& m) {
       .def_property_readonly("actuators", &core_part<&M::actuators>)
       .def_readonly("restitution", &G::restitution)
       .def_readonly("friction", &G::friction)
+      .def_readonly("springs", &G::springs)
+      .def_readonly("dampers", &G::dampers)
       .def("__repr__", [](const G& g) {
         return "ModelGradient(links=" + std::to_string(g.core.inertia.rows()) +
                ", n_v=" + std::to_string(g.core.damping.size()) + ")";
@@ -181,6 +187,7 @@ void bind_derivative_types(py::module_& m) {
       .def_readonly("h", &D::h)
       .def_readonly("restitution", &D::restitution)
       .def_readonly("friction", &D::friction)
+      .def_readonly("forces", &D::forces)
       .def("__repr__", [](const D& d) {
         return "StepDirection(n_v=" + std::to_string(d.q.size()) +
                ", n_u=" + std::to_string(d.control.size()) + ")";
@@ -195,10 +202,10 @@ void bind_step_derivatives(py::class_<SharedStepper>& c) {
   const auto none = [](const char* name) { return py::arg(name) = py::none(); };
   c.def("jvp", &push<&StepDerivatives::jvp>, jvp_doc, none("dq"), none("dp"), none("du"),
         py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0, none("drestitution"),
-        py::arg("dfriction") = 0.0)
+        py::arg("dfriction") = 0.0, none("dforces"))
       .def("directional", &push<&StepDerivatives::directional>, directional_doc, none("dq"),
            none("dp"), none("du"), py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0,
-           none("drestitution"), py::arg("dfriction") = 0.0)
+           none("drestitution"), py::arg("dfriction") = 0.0, none("dforces"))
       .def("vjp", &pull, vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def("model_gradient", &pull_model, model_vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def(

@@ -35,6 +35,8 @@ restitution : numpy.ndarray, shape (impacts,)
     Of each impact's restitution.
 friction : numpy.ndarray, shape (rubbing,)
     Of the coefficient of each pair in `StepDerivative.rubbing`.
+forces : numpy.ndarray, shape (wrenches, 3)
+    [N] of the force of each wrench that was applied, in their order.
 )";
 
 constexpr auto impact_derivative_doc = R"(An impact as the derivative of its step sees it.
@@ -75,6 +77,8 @@ friction : numpy.ndarray, shape (2 n_v, rubbing)
     By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
 rubbing : list of str
     Names of the pairs that pushed with friction, in arcs or impacts.
+forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
+    By the force of each wrench that was applied, in their order.
 smoothness : Smoothness
 impacts : list of ImpactDerivative
 )";
@@ -113,6 +117,8 @@ drestitution : array_like, shape (impacts,), optional
     Of each impact's restitution.
 dfriction : float or array_like, shape (rubbing,)
     Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
+dforces : array_like, shape (wrenches, 3), optional
+    [N] of the force of each wrench that was applied, in their order.
 
 )" SALTUS_RETURNS_DIRECTION R"(
 Raises
@@ -161,6 +167,10 @@ restitution, friction : dict of str to float
     By what happens between the two shapes of a pair, by the pair's name: of the pairs that rebounded
     and of those that slid. Of all others it is 0. By one number that all pairs have it is the sum.
     A pair whose restitution is 0 does not rebound, and is none of these.
+springs : dict of str to tuple of float
+    By stiffness and length of each spring between two points, by its name.
+dampers : dict of str to float
+    By the damping of each damper between two points, likewise.
 )";
 
 constexpr auto model_vjp_doc =
@@ -190,7 +200,7 @@ in an order that depends on the direction: this takes that order. Else it is `jv
 
 Parameters
 ----------
-dq, dp, du, dqfrc, dh, drestitution, dfriction
+dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
     As in `jvp`.
 
 )" SALTUS_RETURNS_DIRECTION R"(

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "bindings.hpp"
 #include "saltus/derivatives/step_derivative.hpp"
@@ -11,12 +12,22 @@ namespace saltus::bindings {
 
 struct NamedModelGradient {
   ModelGradient core;
-  std::map<std::string, double> restitution, friction;
+  std::map<std::string, double> restitution, friction, dampers;
+  std::map<std::string, std::pair<double, double>> springs;
 };
 
-/// Without the numbers that are 0.
+/// Without the numbers of pairs that are 0.
 inline NamedModelGradient with_names(const Model& model, ModelGradient&& gradient) {
-  NamedModelGradient out{std::move(gradient), {}, {}};
+  NamedModelGradient out{std::move(gradient), {}, {}, {}, {}};
+  const auto& springs = model->mass.potentials.springs;
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    out.springs[springs[k].name] = {out.core.springs(row, 0), out.core.springs(row, 1)};
+  }
+  const auto& dampers = model->forces.dampers;
+  for (std::size_t k = 0; k < dampers.size(); ++k) {
+    out.dampers[dampers[k].name] = out.core.dampers[static_cast<Eigen::Index>(k)];
+  }
   for (const PairGradient& each : out.core.pairs) {
     const std::string name = model.pair_name(each.pair);
     if (each.restitution != 0) out.restitution[name] = each.restitution;

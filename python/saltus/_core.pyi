@@ -3954,11 +3954,15 @@ class StepDirection:
         Of each impact's restitution.
     friction : numpy.ndarray, shape (rubbing,)
         Of the coefficient of each pair in `StepDerivative.rubbing`.
+    forces : numpy.ndarray, shape (wrenches, 3)
+        [N] of the force of each wrench that was applied, in their order.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def control(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
@@ -3993,6 +3997,10 @@ class ModelGradient:
         By what happens between the two shapes of a pair, by the pair's name: of the pairs that rebounded
         and of those that slid. Of all others it is 0. By one number that all pairs have it is the sum.
         A pair whose restitution is 0 does not rebound, and is none of these.
+    springs : dict of str to tuple of float
+        By stiffness and length of each spring between two points, by its name.
+    dampers : dict of str to float
+        By the damping of each damper between two points, likewise.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -4000,6 +4008,8 @@ class ModelGradient:
     def actuators(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def armature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def dampers(self) -> dict[str, float]: ...
     @property
     def damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
@@ -4010,6 +4020,8 @@ class ModelGradient:
     def rest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def restitution(self) -> dict[str, float]: ...
+    @property
+    def springs(self) -> dict[str, tuple[float, float]]: ...
     @property
     def stiffness(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
@@ -4093,6 +4105,8 @@ class StepDerivative:
         By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
     rubbing : list of str
         Names of the pairs that pushed with friction, in arcs or impacts.
+    forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
+        By the force of each wrench that was applied, in their order.
     smoothness : Smoothness
     impacts : list of ImpactDerivative
     """
@@ -4102,6 +4116,8 @@ class StepDerivative:
     def A(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
@@ -4232,6 +4248,7 @@ class Stepper:
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
+        dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4244,7 +4261,7 @@ class Stepper:
 
         Parameters
         ----------
-        dq, dp, du, dqfrc, dh, drestitution, dfriction
+        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
             As in `jvp`.
 
         Returns
@@ -4274,6 +4291,7 @@ class Stepper:
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
+        dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4298,6 +4316,8 @@ class Stepper:
             Of each impact's restitution.
         dfriction : float or array_like, shape (rubbing,)
             Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
+        dforces : array_like, shape (wrenches, 3), optional
+            [N] of the force of each wrench that was applied, in their order.
 
         Returns
         -------
@@ -4641,9 +4661,14 @@ def adjoint(
     control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     q_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     p_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    forces: collections.abc.Mapping[str, Wrench] | None = None,
+    qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+    | numpy.typing.ArrayLike
+    | None = None,
 ) -> tuple[
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     float,
@@ -4661,12 +4686,15 @@ def adjoint(
     q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
     q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
         The cost by each row's state.
+    forces : mapping of links' names to Wrench, optional
+    qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+        What was applied in all steps.
 
     Returns
     -------
     tuple
-        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by h, and a
-        ModelGradient.
+        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
+        (steps, 3 wrenches), by h, and a ModelGradient.
 
     Raises
     ------

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "derivatives/applied_derivative.hpp"
+
 namespace saltus {
 namespace {
 
@@ -101,6 +103,8 @@ void ParameterGradient::start(const ModelData& model) {
   body.setZero(model.tree.joints(), 10);
   for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
   actuators.setZero(model.forces.n_u(), 4);
+  springs.setZero(static_cast<Eigen::Index>(model.mass.potentials.springs.size()), 2);
+  dampers.setZero(static_cast<Eigen::Index>(model.forces.dampers.size()));
   restitution.clear();
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
 }
@@ -136,6 +140,7 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
   add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
   to.damping -= arc.v.cwiseProduct(Q);
   add_actuators(model.forces, arc, Q, to);
+  add_spring_gradient(model, arc, Q, to);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);

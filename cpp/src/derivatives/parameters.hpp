@@ -22,6 +22,8 @@ struct ParameterGradient {
   MatX body;                                ///< (joints, 10): m, h, I as xx xy xz yy yz zz
   VecX stiffness, rest, damping, armature;  ///< (n_v)
   MatX actuators;                           ///< (n_u, 4): gain, bias, bias_l, bias_v
+  MatX springs;                             ///< (springs between points, 2): stiffness, length
+  VecX dampers;                             ///< (dampers between points)
   /// Pair and its number, as they come: by restitution of each impulse.
   std::vector<std::pair<int, double>> restitution;
 

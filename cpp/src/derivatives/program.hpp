@@ -83,7 +83,7 @@ void push_program(const ModelData& model, const Tape& tape, const StepDirection&
 
 /// z <- covector of the start; writes the rest of `to`.
 /// @param parameters written too, or nullptr
-void pull_program(const ModelData& model, StepProgram& program, Tangent& z, StepDirection& to,
-                  ParameterGradient* parameters);
+void pull_program(const ModelData& model, const Tape& tape, StepProgram& program, Tangent& z,
+                  StepDirection& to, ParameterGradient* parameters);
 
 }  // namespace saltus

@@ -58,6 +58,12 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
   fits(d.control, model.forces.n_u(), "du", "actuators");
   fits(d.qfrc, model.tree.n_v, "dqfrc", "velocities");
   fits(d.restitution, program.n_impacts, "drestitution", "impacts");
+  const auto wrenches = static_cast<Eigen::Index>(tape.input.wrenches.size());
+  if (d.forces.size() > 0 && (d.forces.rows() != wrenches || d.forces.cols() != 3)) {
+    throw ModelError("dforces is " + std::to_string(d.forces.rows()) + " by " +
+                     std::to_string(d.forces.cols()) + "; it is " + std::to_string(wrenches) +
+                     " by 3, a row for each wrench that was applied in the step");
+  }
   const auto rubs = static_cast<Eigen::Index>(program.friction.pairs.size());
   if (d.friction.size() > 0 && d.friction.size() != rubs) {
     throw ModelError("dfriction has " + std::to_string(d.friction.size()) + " entries; it has " +
@@ -182,7 +188,7 @@ StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool w
   check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
   Tangent z{covector.q, covector.p, 0, 0};
   StepDirection out;
-  pull_program(model, program, z, out, with_parameters ? &parameters : nullptr);
+  pull_program(model, tape, program, z, out, with_parameters ? &parameters : nullptr);
   out.q = std::move(z.q);
   out.p = std::move(z.p);
   return out;
@@ -201,6 +207,8 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient
               all.damping,
               all.armature,
               all.actuators,
+              all.springs,
+              all.dampers,
               by_pair(all, impl_->program.friction)};
   return out;
 }
@@ -218,6 +226,7 @@ StepDerivative StepDerivatives::derivative() {
   impl_->set_columns(Input::restitution, out.restitution);
   impl_->set_columns(Input::friction, out.friction);
   out.rubbing = rubbing();
+  impl_->set_columns(Input::forces, out.forces);
   if (impl_->program.tells_time) {
     StepDirection by;
     by.h = 1;

@@ -1,6 +1,7 @@
 // The pieces of a step in their order, and in reverse.
 #include <limits>
 
+#include "derivatives/applied_derivative.hpp"
 #include "derivatives/program.hpp"
 
 namespace saltus {
@@ -111,6 +112,11 @@ void push_piece(const ModelData& model, const Tape& tape, const StepDirection& b
   FlownArc& arc = *program.arcs[k];
   program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
   if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
+  for (Eigen::Index i = 0; i < by.forces.rows(); ++i) {
+    const Vec3 force = by.forces.row(i).transpose();
+    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(i)], force,
+             program.dQ);
+  }
   const double dtau = duration_of(piece, by.h, left);
   push_flown(model, arc, program.dQ, dtau, program.friction, z);
   left = piece.kind == Kind::rest ? 0 : left - dtau;
@@ -177,14 +183,16 @@ double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Ta
 
 }  // namespace
 
-void pull_program(const ModelData& model, StepProgram& program, Tangent& z, StepDirection& to,
-                  ParameterGradient* parameters) {
+void pull_program(const ModelData& model, const Tape& tape, StepProgram& program, Tangent& z,
+                  StepDirection& to, ParameterGradient* parameters) {
   if (parameters != nullptr) parameters->start(model);
   to.control.setZero(model.forces.n_u());
   to.qfrc.setZero(model.tree.n_v);
   to.restitution.setZero(program.n_impacts);
   Rubbing& friction = program.friction;
   friction.value.setZero(static_cast<Eigen::Index>(friction.pairs.size()));
+  const std::vector<AppliedWrench>& wrenches = tape.input.wrenches;
+  to.forces.setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
   to.h = 0;
   double left = 0;
   if (program.has_rest) left = program.motion.q.dot(z.q) + program.motion.p.dot(z.p);
@@ -205,6 +213,10 @@ void pull_program(const ModelData& model, StepProgram& program, Tangent& z, Step
     const double of_tau = pull_flown(model, arc, program.dQ, z, friction, parameters);
     to.qfrc += program.dQ;
     if (to.control.size() > 0) to.control += arc.arc.Q_u.transpose() * program.dQ;
+    for (std::size_t i = 0; i < wrenches.size(); ++i) {
+      const Vec3 of_force = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
+      to.forces.row(static_cast<Eigen::Index>(i)) += of_force.transpose();
+    }
     if (piece->kind == Kind::rest) left = of_tau;
     if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);
   }

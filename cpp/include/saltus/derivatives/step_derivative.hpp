@@ -48,6 +48,7 @@ struct StepDirection {
   double h = 0;      ///< [s]
   VecX restitution;  ///< (impacts) of each impact, all its contacts alike
   VecX friction;     ///< (rubbing) of each pair in StepDerivatives::rubbing
+  MatX forces;       ///< (wrenches, 3) [N] of the force of each wrench that was applied
 };
 
 /// What happens where a pair touches, as a covector has it.
@@ -69,6 +70,8 @@ struct ModelGradient {
   /// (n_u, 4) gain, bias, bias_l and bias_v of each actuator (force_model.hpp); 0 where it pushes
   /// all it can.
   MatX actuators;
+  MatX springs;  ///< (springs between points, 2) [N/m], [m] by stiffness and length
+  VecX dampers;  ///< (dampers between points) [N s/m]
   std::vector<PairGradient> pairs;  ///< that rebound or rub, by their numbers; of others 0
 };
 
@@ -96,6 +99,7 @@ struct StepDerivative {
   MatX restitution;                            ///< (2 n_v, impacts)
   MatX friction;                               ///< (2 n_v, rubbing) by each pair's friction
   std::vector<int> rubbing;                    ///< numbers of these pairs
+  MatX forces;                                 ///< (2 n_v, 3 wrenches) by each one's force
   Smoothness smoothness = Smoothness::smooth;  ///< what all this is worth
   std::vector<ImpactDerivative> impacts;       ///< in order
 };
