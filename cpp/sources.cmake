@@ -170,6 +170,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/time_stepping.cpp
   cpp/src/variational/step/unlocated.cpp
   # derivatives
+  cpp/src/derivatives/applied_derivative.cpp
   cpp/src/derivatives/arc_derivative.cpp
   cpp/src/derivatives/columns.cpp
   cpp/src/derivatives/dense_arc.cpp
@@ -182,6 +183,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/kick_derivative.cpp
   cpp/src/derivatives/parameters.cpp
   cpp/src/derivatives/program.cpp
+  cpp/src/derivatives/rubbing.cpp
   cpp/src/derivatives/small_products.cpp
   cpp/src/derivatives/step_derivative.cpp
   cpp/src/derivatives/verdict.cpp

@@ -2,6 +2,7 @@
 #include <pybind11/native_enum.h>
 
 #include "derivative_docs.hpp"
+#include "named_gradient.hpp"
 #include "shared_stepper.hpp"
 
 namespace saltus::bindings {
@@ -17,6 +18,7 @@ struct NamedImpactDerivative {
 struct NamedStepDerivative {
   StepDerivative core;
   std::vector<NamedImpactDerivative> impacts;
+  std::vector<std::string> rubbing;
 };
 struct NamedSelection {
   Selection core;
@@ -30,7 +32,8 @@ std::vector<std::string> names_of_pairs(const Model& model, const std::vector<in
 }
 
 NamedStepDerivative named(const Model& model, StepDerivative&& d) {
-  NamedStepDerivative out{std::move(d), {}};
+  NamedStepDerivative out{std::move(d), {}, {}};
+  out.rubbing = names_of_pairs(model, out.core.rubbing);
   for (const ImpactDerivative& each : out.core.impacts) {
     out.impacts.push_back({each.t, names_of_pairs(model, each.pairs), each.spread, each.depth,
                            names_of_pairs(model, each.weak)});
@@ -38,9 +41,17 @@ NamedStepDerivative named(const Model& model, StepDerivative&& d) {
   return out;
 }
 
-StepDirection to_direction(const SharedStepper& s, const Velocities& dq, const Velocities& dp,
+/// Of each pair that rubs. What is 0 for all asks for no step.
+VecX to_frictions(SharedStepper& s, const PerContact& dfriction) {
+  if (py::isinstance<py::float_>(dfriction.value) && dfriction.value.cast<double>() == 0) return {};
+  const auto count = s.derive([](StepDerivatives& all) { return all.rubbing().size(); });
+  return to_vector(dfriction, static_cast<Eigen::Index>(count), "dfriction");
+}
+
+StepDirection to_direction(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
-                           const std::optional<VecX>& drestitution) {
+                           const std::optional<VecX>& drestitution, const PerContact& dfriction,
+                           const std::optional<MatX>& dforces) {
   const Model& model = s.stepper.model();
   StepDirection d;
   const auto vector = [&](const Velocities& x, const char* what) {
@@ -52,14 +63,17 @@ StepDirection to_direction(const SharedStepper& s, const Velocities& dq, const V
   if (!du.is_none()) d.control = to_control(du, model);
   d.h = dh;
   if (drestitution) d.restitution = *drestitution;
+  d.friction = to_frictions(s, dfriction);
+  if (dforces) d.forces = *dforces;
   return d;
 }
 
 template <auto product>
 std::pair<VecX, VecX> push(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
-                           const std::optional<VecX>& drestitution) {
-  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, drestitution);
+                           const std::optional<VecX>& drestitution, const PerContact& dfriction,
+                           const std::optional<MatX>& dforces) {
+  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces);
   StateDirection out = s.derive([&](StepDerivatives& all) { return (all.*product)(d); });
   return {std::move(out.q), std::move(out.p)};
 }
@@ -75,11 +89,11 @@ StepDirection pull(SharedStepper& s, const Velocities& q_hat, const Velocities& 
   return s.derive([&](StepDerivatives& all) { return all.vjp(covector); });
 }
 
-ModelGradient pull_model(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat) {
+NamedModelGradient pull_model(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat) {
   const StateDirection covector = to_covector(s, q_hat, p_hat);
   ModelGradient out;
   s.derive([&](StepDerivatives& all) { return all.vjp(covector, out); });
-  return out;
+  return with_names(s.stepper.model(), std::move(out));
 }
 
 void bind_impacts(py::module_& m) {
@@ -117,12 +131,41 @@ void bind_step_derivative(py::module_& m) {
       .def_property_readonly("qfrc", [](const D& d) { return d.core.qfrc; })
       .def_property_readonly("h", [](const D& d) { return d.core.h; })
       .def_property_readonly("restitution", [](const D& d) { return d.core.restitution; })
+      .def_property_readonly("friction", [](const D& d) { return d.core.friction; })
+      .def_readonly("rubbing", &D::rubbing)
+      .def_property_readonly("forces", [](const D& d) { return d.core.forces; })
       .def_property_readonly("smoothness", [](const D& d) { return d.core.smoothness; })
       .def_readonly("impacts", &D::impacts)
       .def("__repr__", [](const D& d) {
         return "StepDerivative(n_v=" + std::to_string(d.core.A.rows() / 2) +
                ", smoothness=" + smoothness_name(d.core.smoothness) +
                ", impacts=" + py::repr(py::cast(d.impacts)).cast<std::string>() + ")";
+      });
+}
+
+/// The part of a gradient that the core has.
+template <auto part>
+auto core_part(const NamedModelGradient& g) {
+  return g.core.*part;
+}
+
+void bind_model_gradient(py::module_& m) {
+  using G = NamedModelGradient;
+  using M = ModelGradient;
+  py::class_<G>(m, "ModelGradient", model_gradient_doc)
+      .def_property_readonly("inertia", &core_part<&M::inertia>)
+      .def_property_readonly("stiffness", &core_part<&M::stiffness>)
+      .def_property_readonly("rest", &core_part<&M::rest>)
+      .def_property_readonly("damping", &core_part<&M::damping>)
+      .def_property_readonly("armature", &core_part<&M::armature>)
+      .def_property_readonly("actuators", &core_part<&M::actuators>)
+      .def_readonly("restitution", &G::restitution)
+      .def_readonly("friction", &G::friction)
+      .def_readonly("springs", &G::springs)
+      .def_readonly("dampers", &G::dampers)
+      .def("__repr__", [](const G& g) {
+        return "ModelGradient(links=" + std::to_string(g.core.inertia.rows()) +
+               ", n_v=" + std::to_string(g.core.damping.size()) + ")";
       });
 }
 
@@ -143,22 +186,13 @@ void bind_derivative_types(py::module_& m) {
       .def_readonly("qfrc", &D::qfrc)
       .def_readonly("h", &D::h)
       .def_readonly("restitution", &D::restitution)
+      .def_readonly("friction", &D::friction)
+      .def_readonly("forces", &D::forces)
       .def("__repr__", [](const D& d) {
         return "StepDirection(n_v=" + std::to_string(d.q.size()) +
                ", n_u=" + std::to_string(d.control.size()) + ")";
       });
-  using G = ModelGradient;
-  py::class_<G>(m, "ModelGradient", model_gradient_doc)
-      .def_readonly("inertia", &G::inertia)
-      .def_readonly("stiffness", &G::stiffness)
-      .def_readonly("rest", &G::rest)
-      .def_readonly("damping", &G::damping)
-      .def_readonly("armature", &G::armature)
-      .def_readonly("actuators", &G::actuators)
-      .def("__repr__", [](const G& g) {
-        return "ModelGradient(links=" + std::to_string(g.inertia.rows()) +
-               ", n_v=" + std::to_string(g.damping.size()) + ")";
-      });
+  bind_model_gradient(m);
   bind_impacts(m);
   bind_step_derivative(m);
 }
@@ -167,10 +201,11 @@ void bind_step_derivatives(py::class_<SharedStepper>& c) {
   using S = SharedStepper;
   const auto none = [](const char* name) { return py::arg(name) = py::none(); };
   c.def("jvp", &push<&StepDerivatives::jvp>, jvp_doc, none("dq"), none("dp"), none("du"),
-        py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0, none("drestitution"))
+        py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0, none("drestitution"),
+        py::arg("dfriction") = 0.0, none("dforces"))
       .def("directional", &push<&StepDerivatives::directional>, directional_doc, none("dq"),
            none("dp"), none("du"), py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0,
-           none("drestitution"))
+           none("drestitution"), py::arg("dfriction") = 0.0, none("dforces"))
       .def("vjp", &pull, vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def("model_gradient", &pull_model, model_vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def(

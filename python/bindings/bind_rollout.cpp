@@ -1,6 +1,7 @@
 // Rollout floor: many steps in a row, with the interpreter's lock released.
 #include "bindings.hpp"
 #include "control.hpp"
+#include "named_gradient.hpp"
 #include "progress.hpp"
 #include "saltus/rollout/adjoint.hpp"
 #include "saltus/rollout/simulate.hpp"
@@ -85,12 +86,15 @@ t : numpy.ndarray, shape (rows,)
 q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
 q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
     The cost by each row's state.
+forces : mapping of links' names to Wrench, optional
+qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+    What was applied in all steps.
 
 Returns
 -------
 tuple
-    By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by h, and a
-    ModelGradient.
+    By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
+    (steps, 3 wrenches), by h, and a ModelGradient.
 
 Raises
 ------
@@ -100,19 +104,26 @@ StepError, JammedError
     As `Stepper.advance`.
 )";
 
-using Gradient = std::tuple<VecX, VecX, MatX, MatX, double, ModelGradient>;
+using Gradient = std::tuple<VecX, VecX, MatX, MatX, MatX, double, NamedModelGradient>;
 
 Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& t, const MatX& q,
-                    const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat) {
-  const RunRows rows{t, q, p, control};
+                    const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat,
+                    const Wrenches& forces, const Velocities& qfrc) {
+  const ForceInput input = to_input(py::none(), forces, qfrc, model);
+  const RunRows rows{t, q, p, control, input.qfrc, input.wrenches};
   const auto goes_on = [] {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   };
   const py::gil_scoped_release release;
   RunGradient g = adjoint(model, options, rows, q_hat, p_hat, goes_on);
-  return {std::move(g.q),    std::move(g.p), std::move(g.control), std::move(g.qfrc), g.h,
-          std::move(g.model)};
+  return {std::move(g.q),
+          std::move(g.p),
+          std::move(g.control),
+          std::move(g.qfrc),
+          std::move(g.forces),
+          g.h,
+          with_names(model, std::move(g.model))};
 }
 
 template <auto field>
@@ -212,7 +223,8 @@ void bind_rollout(py::module_& m) {
       });
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
   m.def("adjoint", &adjoint_of, adjoint_doc, py::arg("model"), py::arg("options"), py::arg("t"),
-        py::arg("q"), py::arg("p"), py::arg("control"), py::arg("q_hat"), py::arg("p_hat"));
+        py::arg("q"), py::arg("p"), py::arg("control"), py::arg("q_hat"), py::arg("p_hat"),
+        py::arg("forces") = py::none(), py::arg("qfrc") = py::none());
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
         py::arg("record_every") = 1, py::arg("record_contacts") = false,

@@ -12,8 +12,9 @@ constexpr auto smoothness_doc = R"(What the derivative of a step is worth.
 
 smooth: one derivative in all directions. selection: several contacts closed at one instant, and
 their order changes it; it is that of the order that was taken, others differ by `spread`.
-one_sided: contacts touch without pushing, or an impact is at an end of the step; it holds while
-`weak` pairs keep opening. order_dependent: the outcome itself depends on the order, and the
+one_sided: contacts touch without pushing, or an impact is at an end of the step, and it holds while
+`weak` pairs keep opening; or a contact is at the edge of its friction cone, and it holds while that
+sticks. order_dependent: the outcome itself depends on the order, and the
 derivative is of one side of a jump. grazing: an impact so weak that it is lost by a change of the
 start as small as `depth`.
 )";
@@ -32,6 +33,10 @@ h : float
     [s] of the step's duration.
 restitution : numpy.ndarray, shape (impacts,)
     Of each impact's restitution.
+friction : numpy.ndarray, shape (rubbing,)
+    Of the coefficient of each pair in `StepDerivative.rubbing`.
+forces : numpy.ndarray, shape (wrenches, 3)
+    [N] of the force of each wrench that was applied, in their order.
 )";
 
 constexpr auto impact_derivative_doc = R"(An impact as the derivative of its step sees it.
@@ -68,6 +73,12 @@ h : numpy.ndarray, shape (2 n_v,)
     By the duration. Empty where forces are functions, whose derivatives by time nobody tells.
 restitution : numpy.ndarray, shape (2 n_v, impacts)
     By each impact's restitution.
+friction : numpy.ndarray, shape (2 n_v, rubbing)
+    By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
+rubbing : list of str
+    Names of the pairs that pushed with friction, in arcs or impacts.
+forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
+    By the force of each wrench that was applied, in their order.
 smoothness : Smoothness
 impacts : list of ImpactDerivative
 )";
@@ -104,6 +115,10 @@ dh : float
     [s] of the step's duration.
 drestitution : array_like, shape (impacts,), optional
     Of each impact's restitution.
+dfriction : float or array_like, shape (rubbing,)
+    Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
+dforces : array_like, shape (wrenches, 3), optional
+    [N] of the force of each wrench that was applied, in their order.
 
 )" SALTUS_RETURNS_DIRECTION R"(
 Raises
@@ -148,6 +163,14 @@ actuators : numpy.ndarray, shape (n_u, 4)
     By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
     with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
     bias_l -kp: the first less the third; by its kd: less the last.
+restitution, friction : dict of str to float
+    By what happens between the two shapes of a pair, by the pair's name: of the pairs that rebounded
+    and of those that slid. Of all others it is 0. By one number that all pairs have it is the sum.
+    A pair whose restitution is 0 does not rebound, and is none of these.
+springs : dict of str to tuple of float
+    By stiffness and length of each spring between two points, by its name.
+dampers : dict of str to float
+    By the damping of each damper between two points, likewise.
 )";
 
 constexpr auto model_vjp_doc =
@@ -177,7 +200,7 @@ in an order that depends on the direction: this takes that order. Else it is `jv
 
 Parameters
 ----------
-dq, dp, du, dqfrc, dh, drestitution
+dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
     As in `jvp`.
 
 )" SALTUS_RETURNS_DIRECTION R"(

@@ -3923,8 +3923,9 @@ class Smoothness(enum.Enum):
 
     smooth: one derivative in all directions. selection: several contacts closed at one instant, and
     their order changes it; it is that of the order that was taken, others differ by `spread`.
-    one_sided: contacts touch without pushing, or an impact is at an end of the step; it holds while
-    `weak` pairs keep opening. order_dependent: the outcome itself depends on the order, and the
+    one_sided: contacts touch without pushing, or an impact is at an end of the step, and it holds while
+    `weak` pairs keep opening; or a contact is at the edge of its friction cone, and it holds while that
+    sticks. order_dependent: the outcome itself depends on the order, and the
     derivative is of one side of a jump. grazing: an impact so weak that it is lost by a change of the
     start as small as `depth`.
     """
@@ -3951,11 +3952,19 @@ class StepDirection:
         [s] of the step's duration.
     restitution : numpy.ndarray, shape (impacts,)
         Of each impact's restitution.
+    friction : numpy.ndarray, shape (rubbing,)
+        Of the coefficient of each pair in `StepDerivative.rubbing`.
+    forces : numpy.ndarray, shape (wrenches, 3)
+        [N] of the force of each wrench that was applied, in their order.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     @property
     def control(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def h(self) -> float: ...
     @property
@@ -3984,6 +3993,14 @@ class ModelGradient:
         By gain, bias, bias_l and bias_v of each, whose force is gain u + bias + bias_l l + bias_v l'
         with its length l; 0 where it pushes all it can. By kp of a position servo, whose gain is kp and
         bias_l -kp: the first less the third; by its kd: less the last.
+    restitution, friction : dict of str to float
+        By what happens between the two shapes of a pair, by the pair's name: of the pairs that rebounded
+        and of those that slid. Of all others it is 0. By one number that all pairs have it is the sum.
+        A pair whose restitution is 0 does not rebound, and is none of these.
+    springs : dict of str to tuple of float
+        By stiffness and length of each spring between two points, by its name.
+    dampers : dict of str to float
+        By the damping of each damper between two points, likewise.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -3992,11 +4009,19 @@ class ModelGradient:
     @property
     def armature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
+    def dampers(self) -> dict[str, float]: ...
+    @property
     def damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def friction(self) -> dict[str, float]: ...
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def rest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def restitution(self) -> dict[str, float]: ...
+    @property
+    def springs(self) -> dict[str, tuple[float, float]]: ...
     @property
     def stiffness(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
@@ -4076,6 +4101,12 @@ class StepDerivative:
         By the duration. Empty where forces are functions, whose derivatives by time nobody tells.
     restitution : numpy.ndarray, shape (2 n_v, impacts)
         By each impact's restitution.
+    friction : numpy.ndarray, shape (2 n_v, rubbing)
+        By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
+    rubbing : list of str
+        Names of the pairs that pushed with friction, in arcs or impacts.
+    forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
+        By the force of each wrench that was applied, in their order.
     smoothness : Smoothness
     impacts : list of ImpactDerivative
     """
@@ -4086,6 +4117,10 @@ class StepDerivative:
     @property
     def B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
+    def forces(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def friction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
     def h(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def impacts(self) -> list[ImpactDerivative]: ...
@@ -4093,6 +4128,8 @@ class StepDerivative:
     def qfrc(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def restitution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def rubbing(self) -> list[str]: ...
     @property
     def smoothness(self) -> Smoothness: ...
 
@@ -4210,6 +4247,8 @@ class Stepper:
         dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
+        dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
+        dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4222,7 +4261,7 @@ class Stepper:
 
         Parameters
         ----------
-        dq, dp, du, dqfrc, dh, drestitution
+        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
             As in `jvp`.
 
         Returns
@@ -4251,6 +4290,8 @@ class Stepper:
         dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         drestitution: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
         | None = None,
+        dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
+        dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4273,6 +4314,10 @@ class Stepper:
             [s] of the step's duration.
         drestitution : array_like, shape (impacts,), optional
             Of each impact's restitution.
+        dfriction : float or array_like, shape (rubbing,)
+            Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
+        dforces : array_like, shape (wrenches, 3), optional
+            [N] of the force of each wrench that was applied, in their order.
 
         Returns
         -------
@@ -4616,9 +4661,14 @@ def adjoint(
     control: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     q_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     p_hat: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    forces: collections.abc.Mapping[str, Wrench] | None = None,
+    qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+    | numpy.typing.ArrayLike
+    | None = None,
 ) -> tuple[
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     float,
@@ -4636,12 +4686,15 @@ def adjoint(
     q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
     q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
         The cost by each row's state.
+    forces : mapping of links' names to Wrench, optional
+    qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+        What was applied in all steps.
 
     Returns
     -------
     tuple
-        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by h, and a
-        ModelGradient.
+        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
+        (steps, 3 wrenches), by h, and a ModelGradient.
 
     Raises
     ------

@@ -195,11 +195,15 @@ def derivatives() -> None:
     impacts: list[saltus.ImpactDerivative] = list(whole.impacts)
     assert whole.smoothness == saltus.Smoothness.smooth
     assert covector.q.shape == by_model.damping.shape == (1,)
+    assert whole.rubbing == []
+    assert covector.friction.shape == (0,)
+    assert by_model.friction == {}
     assert orders == []
     assert impacts == []
     run = saltus.simulate(model, duration=0.02)
     gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
     assert gradient.q.shape == (1,)
+    assert gradient.restitution == gradient.friction == {}
     assert saltus.optimize.Quadratic is not None
     falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
     assert not falls.converged

@@ -79,6 +79,10 @@ PREDICTED = {
     ],
     "hello_cradle": ["first impact at 0.50460 s"],
     "hundred_pendulums": ["100 periods, greatest difference from theory 3e-06 s"],
+    "identify_cube": [
+        "friction 0.1800, restitution 0.1250",
+        "fewer than 30 runs of each toss: True",
+    ],
     "impulses_at_one_instant": [
         "leave as [-2.0, 0.0, 1.0, 1.0, 3.0], 7 impulses",
         "digits of pi: 3 31 314 3141",

@@ -210,9 +210,23 @@ def test_costs_that_are_none():
         optimize.ilqr(model, start, cost, zeros)
     nothing = optimize.ilqr(model, start, optimize.Quadratic(model, start), zeros)
     assert nothing.converged
-    goal = model.state({"shoulder": 1.0})
-    free = optimize.Quadratic(model, goal, final_q=1.0)  # of no effort
-    plan = optimize.ilqr(model, start, free, np.zeros((20, 1)), h=0.05)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-13, 1e-7, 0.1])
+def test_a_cost_of_no_effort(size):
+    """A pendulum is to swing up, by whatever torque: one number to reach by twenty controls.
+
+    The last control reaches it alone, and what is left for the others to gain is rounding. An
+    acrobot, which has less control than coordinates, would take some 10 000 N m in its last steps,
+    and where its search goes from there follows the last bit of the guess.
+    """
+    builder = saltus.ModelBuilder()
+    builder.add_link("rod", saltus.BodyInertia(1.0, (0, 0, -0.5), 0.02 * np.eye(3)))
+    builder.add_joint("pivot", "revolute", parent="world", child="rod", axis=(0, 1, 0))
+    model = builder.add_motor("drive", joint="pivot").build()
+    free = optimize.Quadratic(model, model.state({"pivot": 1.0}), final_q=1.0)
+    guess = size * np.random.default_rng(0).normal(size=(20, 1))
+    plan = optimize.ilqr(model, model.state(), free, guess, h=0.05)
     assert plan.converged
     assert plan.cost < 1e-20
 

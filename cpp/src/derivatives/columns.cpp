@@ -1,5 +1,7 @@
 #include "derivatives/columns.hpp"
 
+#include "derivatives/applied_derivative.hpp"
+
 namespace saltus {
 namespace {
 
@@ -8,7 +10,8 @@ using Kind = StepProgram::Kind;
 /// Of fewer coordinates than this a matrix saves a microsecond at most over columns one by one.
 constexpr Eigen::Index few = 4;
 
-Eigen::Index count_of(const ModelData& model, Input input, const StepProgram& program) {
+Eigen::Index count_of(const ModelData& model, const Tape& tape, Input input,
+                      const StepProgram& program) {
   switch (input) {
     case Input::state:
       return 2 * model.tree.n_v;
@@ -17,9 +20,13 @@ Eigen::Index count_of(const ModelData& model, Input input, const StepProgram& pr
     case Input::qfrc:
       return model.tree.n_v;
     case Input::restitution:
+      return program.n_impacts;
+    case Input::friction:
+      return static_cast<Eigen::Index>(program.friction.pairs.size());
+    case Input::forces:
       break;
   }
-  return program.n_impacts;
+  return static_cast<Eigen::Index>(3 * tape.input.wrenches.size());
 }
 
 /// Column c of the input, but for the state, which is in Z.
@@ -29,14 +36,30 @@ StepDirection unit_of(Input input, Eigen::Index columns, Eigen::Index c) {
   if (input == Input::control) by.control = unit;
   if (input == Input::qfrc) by.qfrc = unit;
   if (input == Input::restitution) by.restitution = unit;
+  if (input == Input::friction) by.friction = unit;
+  if (input == Input::forces) {
+    by.forces.setZero(columns / 3, 3);
+    by.forces(c / 3, c % 3) = 1;
+  }
   return by;
 }
 
 /// Forces (n_v, columns) on an arc; without columns: none.
-MatX forces_of(Input input, const FlownArc& arc, Eigen::Index n) {
+MatX forces_of(const ModelData& model, const Tape& tape, Input input, const FlownArc& arc) {
+  const Eigen::Index n = model.tree.n_v;
   if (input == Input::control) return arc.arc.Q_u;
   if (input == Input::qfrc) return MatX::Identity(n, n);
-  return {};
+  if (input != Input::forces || tape.input.wrenches.empty()) return {};
+  MatX out(n, 3 * tape.input.wrenches.size());
+  VecX column;
+  for (Eigen::Index c = 0; c < out.cols(); ++c) {
+    const Vec3 unit = Vec3::Unit(c % 3);
+    column.setZero(n);
+    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(c / 3)], unit,
+             column);
+    out.col(c) = column;
+  }
+  return out;
 }
 
 /// Columns as they go through the pieces; `energy` by what a law that matches one has found.
@@ -63,7 +86,7 @@ void push_each(const ModelData& model, const Tape& tape, Input input,
 
 void push_columns(const ModelData& model, const Tape& tape, Input input, StepProgram& program,
                   DenseScratch& scratch, MatX& Z) {
-  const Eigen::Index n = model.tree.n_v, columns = count_of(model, input, program);
+  const Eigen::Index n = model.tree.n_v, columns = count_of(model, tape, input, program);
   bool is_unit = input == Input::state;
   if (is_unit) {
     Z.setIdentity(2 * n, columns);
@@ -80,7 +103,7 @@ void push_columns(const ModelData& model, const Tape& tape, Input input, StepPro
     FlownArc* arc = is_arc ? program.arcs[static_cast<std::size_t>(piece.index)].get() : nullptr;
     if (n >= few && is_arc && is_plain(*arc) && set_dense(model, *arc, scratch)) {
       const VecX dtau = piece.kind == Kind::rest ? all.left : VecX::Zero(columns);
-      push_dense(model, *arc, forces_of(input, *arc, n), dtau, is_unit, Z);
+      push_dense(model, *arc, forces_of(model, tape, input, *arc), dtau, is_unit, Z);
       if (piece.kind == Kind::rest) all.left.setZero();
     } else {
       push_each(model, tape, input, piece, program, all);

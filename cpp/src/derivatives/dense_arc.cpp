@@ -140,7 +140,7 @@ void push_dense(const ModelData& model, FlownArc& flown, const MatX& dQ, const V
   }
   if (left.isZero(0)) return;
   Tangent b{VecX::Zero(n), VecX::Zero(n), 0, 0};
-  push_flown(model, flown, VecX::Zero(n), 1, b);
+  push_flown(model, flown, VecX::Zero(n), 1, {}, b);
   Z.topRows(n) += b.q * left.transpose();
   Z.bottomRows(n) += b.p * left.transpose();
 }

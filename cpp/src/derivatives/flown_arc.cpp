@@ -15,7 +15,7 @@ Eigen::Matrix2d turning(const HeldArc& held, int source) {
 /// What the arc gives to its kick.
 VecX given(const FlownArc& flown, const VecX& dP, double dtau) {
   if (flown.source.empty()) return {};
-  VecX out(flown.kick.extra());
+  VecX out(flown.kick.given());
   Eigen::Index at = 0;
   for (const FlownArc::Source& each : flown.source) {
     if (each.row < 0) {
@@ -45,7 +45,8 @@ double pull_given(const FlownArc& flown, const VecX& extra, VecX& of_P) {
 
 }  // namespace
 
-void push_flown(const ModelData& model, FlownArc& flown, const VecX& dQ, double dtau, Tangent& z) {
+void push_flown(const ModelData& model, FlownArc& flown, const VecX& dQ, double dtau,
+                const Rubbing& friction, Tangent& z) {
   const HeldArc& held = flown.held;
   VecX rates, dP;
   if (held.size() > 0) {
@@ -61,20 +62,23 @@ void push_flown(const ModelData& model, FlownArc& flown, const VecX& dQ, double 
     rates += held.G_q.transpose() * z.q + held.G_v.transpose() * flown.arc.dv +
              held.G_m.transpose() * flown.arc.x_m;
     dP = -(held.S_N * rates);
+    for (std::size_t k = 0; k < held.slides.size(); ++k) {
+      dP += friction.of(held.slides[k]) * held.S_F.col(static_cast<Eigen::Index>(k));
+    }
     z.q += held.R_q * dP;
     z.p += held.R_p * dP;
   }
-  push_kick(flown.kick, given(flown, dP, dtau), z);
+  push_kick(flown.kick, given(flown, dP, dtau), friction, z);
 }
 
-double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z,
+double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z, Rubbing& friction,
                   ParameterGradient* to) {
   const HeldArc& held = flown.held;
   if (to != nullptr && flown.match.is_set) {
     throw ModelError("the step has no gradient by the model yet: its impact law matches energies");
   }
   VecX extra, residual, of_rates;
-  pull_kick(flown.kick, VecX(), z, extra, residual);
+  pull_kick(flown.kick, VecX(), z, extra, residual, friction);
   if (to != nullptr && residual.size() > 0) {
     add_kick_gradient(model, flown.node->q, flown.kick, residual, flown.node->w, *to);
   }
@@ -85,6 +89,9 @@ double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z,
   if (held.size() > 0) {
     VecX of_P = held.R_q.transpose() * z.q + held.R_p.transpose() * z.p;
     of_tau += pull_given(flown, extra, of_P);
+    for (std::size_t k = 0; k < held.slides.size(); ++k) {
+      friction.add(held.slides[k], held.S_F.col(static_cast<Eigen::Index>(k)).dot(of_P));
+    }
     of_rates = -(held.S_N.transpose() * of_P);
     z.q += held.G_q * of_rates;
     arc.hat_v = held.G_v * of_rates;

@@ -97,28 +97,29 @@ void set_friction_impulse(const ModelData& model, const Tape& tape, const TapeIm
   set_phase(model, tape, kick, frame, p, node, out.expansion);
 }
 
-void push_friction(const FrictionDerivative& impulse, double de, Tangent& z) {
-  const VecX dP = push_kick(impulse.compression, VecX(), z);
+void push_friction(const FrictionDerivative& impulse, double de, const Rubbing& friction,
+                   Tangent& z) {
+  const VecX dP = push_kick(impulse.compression, VecX(), friction, z);
   if (impulse.expansion.size() == 0) return;
-  push_kick(impulse.expansion, VecX::Constant(1, impulse.restitution * dP[0] + de * impulse.lambda),
-            z);
+  const double more = impulse.restitution * dP[0] + de * impulse.lambda;
+  push_kick(impulse.expansion, VecX::Constant(1, more), friction, z);
 }
 
 double pull_friction(const ModelData& model, const FrictionDerivative& impulse,
-                     NodeDerivative& node, Tangent& z, ParameterGradient* to) {
+                     NodeDerivative& node, Tangent& z, Rubbing& friction, ParameterGradient* to) {
   VecX extra, residual, of_P;
   double of_e = 0;
   const auto add = [&](const KickDerivative& kick) {
     if (to != nullptr) add_kick_gradient(model, node.q, kick, residual, node.w, *to);
   };
   if (impulse.expansion.size() > 0) {
-    pull_kick(impulse.expansion, VecX(), z, extra, residual);
+    pull_kick(impulse.expansion, VecX(), z, extra, residual, friction);
     add(impulse.expansion);
     of_e = impulse.lambda * extra[0];
     of_P = VecX::Zero(impulse.compression.size());
     of_P[0] = impulse.restitution * extra[0];
   }
-  pull_kick(impulse.compression, of_P, z, extra, residual);
+  pull_kick(impulse.compression, of_P, z, extra, residual, friction);
   add(impulse.compression);
   return of_e;
 }

@@ -69,21 +69,19 @@ void put(const VecX& from, Eigen::Index column, MatX& to) {
   if (from.size() > 0) to.col(column) = from;
 }
 
-/// Rates and equations of one contact, whose first row is `at`.
-void add_contact(const ModelData& model, const Places& places, const TapeRow& row,
-                 const ArcDerivative& arc, Eigen::Index at, HeldArc& held, MatX& N, MatX& K) {
+/// Rates of one contact, whose first row is `at`. @return its slip
+Vec2 add_rates(const ModelData& model, const Places& places, const TapeRow& row,
+               const ArcDerivative& arc, Eigen::Index at, HeldArc& held) {
   if (row.joint >= 0) {
     held.G_v(row.joint, at) = 1;
-    (row.slides ? K : N)(at, at) = 1;
     if (row.slides) held.rubs[row.joint] += row.P[0] / arc.tau;
-    return;
+    return Vec2::Zero();
   }
   const Pair pair = pair_of(model, row.pair);
   GapDerivative end;
   set_gap_derivative(model, places.end, watched(row, pair), end);
   held.G_q.col(at) = end.n;
-  N(at, at) = 1;
-  if (rates_of(row) == 1) return;
+  if (rates_of(row) == 1) return Vec2::Zero();
   const Slip slip = row.is_point ? slip_of_point(model, places, row)
                                  : slip_in_middle(model, places, watched(row, pair), row, arc.v);
   for (int k = 0; k < 2; ++k) {
@@ -92,11 +90,34 @@ void add_contact(const ModelData& model, const Places& places, const TapeRow& ro
     put(slip.by_m[k], at + 1 + k, held.G_m);
     put(slip.by_start[k], at + 1 + k, held.G_0);
   }
-  if (!row.slides) {
-    N(at + 1, at + 1) = N(at + 2, at + 2) = 1;
+  return slip.value;
+}
+
+/// N dg + N W dP + K dP = F dmu.
+struct System {
+  MatX W, N, K, F;
+};
+
+/// Equations of one contact, whose first row is `at`.
+void add_equations(const TapeRow& row, const Vec2& slip, Eigen::Index at, HeldArc& held,
+                   System& to) {
+  if (row.joint >= 0 && row.slides) {
+    to.K(at, at) = 1;
     return;
   }
-  add_sliding(row.friction, row.P[0], slip.value, at, N, K);
+  to.N(at, at) = 1;
+  if (row.joint >= 0 || rates_of(row) == 1) return;
+  const Eigen::Matrix2d W = to.W.block<2, 2>(at + 1, at + 1);
+  const bool is_edge = is_at_edge(row.friction, row.P, row.slides, slip, W);
+  held.is_at_edge = held.is_at_edge || is_edge;
+  if (is_edge || !row.slides) {
+    to.N(at + 1, at + 1) = to.N(at + 2, at + 2) = 1;
+    return;
+  }
+  VecX F;
+  add_sliding(row.friction, row.P[0], slip, at, to.N, to.K, F);
+  to.F.col(static_cast<Eigen::Index>(held.slides.size())) = F;
+  held.slides.push_back(row.pair);
 }
 
 void list_rows(const TapeArc& told, HeldArc& held) {
@@ -137,6 +158,27 @@ MatX set_answers(const ModelData& model, ArcDerivative& arc, HeldArc& held) {
   return W;
 }
 
+/// What the impulses change by. @param slips (n_held)
+void set_shares(const TapeArc& told, const std::vector<Vec2>& slips, ArcDerivative& arc,
+                const ModelData& model, HeldArc& held) {
+  const Eigen::Index N = held.size();
+  System system{set_answers(model, arc, held), MatX::Zero(N, N), MatX::Zero(N, N),
+                MatX::Zero(N, told.n_held)};
+  held.slides.clear();
+  held.is_at_edge = false;
+  Eigen::Index at = 0;
+  for (std::size_t k = 0; k < slips.size(); ++k) {
+    add_equations(told.held[k], slips[k], at, held, system);
+    at += rates_of(told.held[k]);
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatX> factors;
+  factors.setThreshold(1e-11);  // redundant contacts share what they do: the least there is
+  factors.compute(system.N * system.W + system.K);
+  const MatX S = factors.pseudoInverse();
+  held.S_N = S * system.N;
+  held.S_F = S * system.F.leftCols(static_cast<Eigen::Index>(held.slides.size()));
+}
+
 void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
   HeldArc& held = out.held;
   list_rows(told, held);
@@ -150,7 +192,7 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
   Places places{Kinematics(model.tree), Kinematics(model.tree), Kinematics(model.tree)};
   place(model, told, out.arc, places);
   held.frames.resize(static_cast<std::size_t>(told.n_held));
-  MatX by_g = MatX::Zero(N, N), by_P = by_g;
+  std::vector<Vec2> slips;
   Eigen::Index at = 0;
   for (int k = 0; k < told.n_held; ++k) {
     const TapeRow& row = told.held[static_cast<std::size_t>(k)];
@@ -162,13 +204,10 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
       const bool at_a = pair.on_b.joint < 0;  // friction_point
       set_frame(model, places.start, pair, choice_of(row, at_a), frame);
     }
-    add_contact(model, places, row, out.arc, at, held, by_g, by_P);
+    slips.push_back(add_rates(model, places, row, out.arc, at, held));
     at += rates_of(row);
   }
-  Eigen::CompleteOrthogonalDecomposition<MatX> factors;
-  factors.setThreshold(1e-11);  // redundant contacts share what they do: the least there is
-  factors.compute(by_g * set_answers(model, out.arc, held) + by_P);
-  held.S_N = factors.pseudoInverse() * by_g;
+  set_shares(told, slips, out.arc, model, held);
 }
 
 /// The kick, and where in the arc the directions of its friction come from.
@@ -189,10 +228,6 @@ void set_closing_kick(const ModelData& model, const Tape& tape, const TapeArc& t
     } else if (row.joint >= 0) {
       contact.is_given = row.slides;
       if (row.slides) out.source.push_back({-1, row.P[0] / told.tau});
-    } else if (contact.mode == Mode::slides) {
-      throw ModelError(
-          "the step has no derivative yet: it has a contact that slides at an arc's "
-          "end, and did not in the arc");
     }
     out.kick.contacts.push_back(contact);
   }
@@ -213,6 +248,7 @@ KickContact contact_of(const ModelData& model, const TapeRow& row) {
   out.joint = row.joint;
   out.P = row.P;
   if (row.joint >= 0) return out;
+  out.number = row.pair;
   out.pair = row.is_frozen ? row.frozen : pair_of(model, row.pair);
   out.frame = choice_of(row, false);
   out.friction = row.friction;

@@ -7,7 +7,7 @@
 //   z.p += P dC,   z <- arc z,   z += R dP   so that  N (dg + W dP) + K dP = 0,   W = g(R)
 //
 // N and K by mode: a gap stays closed, g_n = 0; what sticks has g_t = 0; what slides
-// P_t = -mu P_n g_t / |g_t|.
+// P_t = -mu P_n g_t / |g_t|, and F dmu on the right.
 #pragma once
 
 #include <memory>
@@ -25,6 +25,9 @@ struct HeldArc {
   MatX R_q, R_p;                        ///< (n_v, N)
   MatX G_q, G_v, G_m, G_0;  ///< (n_v, N) g by dq of the end, dv, dq of the middle, dq of the start
   MatX S_N;                 ///< (N, N)
+  MatX S_F;                 ///< (N, slides) dP by mu of each pair that slides
+  std::vector<int> slides;  ///< numbers of those
+  bool is_at_edge = false;  ///< a contact is at the edge of its cone
   VecX rubs;  ///< (n_v) [N] what joints that slide push more, as the arc grows longer; or empty
 
   Eigen::Index size() const { return P.size(); }
@@ -47,14 +50,20 @@ struct FlownArc {
   std::unique_ptr<NodeDerivative> node;  ///< of the kick, where one has been
   MatX dense;              ///< (2 n_v, 2 n_v) of a plain arc, where it has been asked for
   bool has_dense = false;  ///< then
+
+  /// A contact of it is at the edge of its cone.
+  bool is_at_edge() const {
+    return (held.size() > 0 && held.is_at_edge) || (kick.size() > 0 && kick.is_at_edge);
+  }
 };
 
 /// Writes all of `out`. @throws ModelError as set_arc_derivative
 void set_flown_arc(const ModelData& model, const Tape& tape, const TapeArc& told, FlownArc& out);
 
-void push_flown(const ModelData& model, FlownArc& arc, const VecX& dQ, double dtau, Tangent& z);
-/// @param to parameters, or nullptr
-double pull_flown(const ModelData& model, FlownArc& arc, VecX& Q, Tangent& z,
+void push_flown(const ModelData& model, FlownArc& arc, const VecX& dQ, double dtau,
+                const Rubbing& friction, Tangent& z);
+/// @param friction its covector is added to; @param to parameters, or nullptr
+double pull_flown(const ModelData& model, FlownArc& arc, VecX& Q, Tangent& z, Rubbing& friction,
                   ParameterGradient* to);
 
 /// Of contacts that the tape tells.

@@ -62,10 +62,12 @@ void set_node(const ModelData& model, const Tape& tape, const TapeImpact& impact
   set_configuration(model.tree, node.q, node.kin);
   node.gaps.resize(impact.contacts.size());
   node.restitution.clear();
+  node.pairs.clear();
   for (std::size_t i = 0; i < impact.contacts.size(); ++i) {
     const TapeContact& contact = impact.contacts[i];
     set_gap_derivative(model, node.kin, contact.pair, node.gaps[i]);
     node.restitution.push_back(contact.restitution);
+    node.pairs.push_back(contact.pair);
   }
   set_node_derivative(model, tape, node.t, node.q, impact.v, node.motion);
 }

@@ -52,6 +52,7 @@ struct NodeDerivative {
   ArcDerivative motion;  ///< of no duration: M, and f at the last v
   Kinematics kin;
   std::vector<GapDerivative> gaps;
+  std::vector<int> pairs;  ///< their numbers
   std::vector<double> restitution;
   Packed w;  ///< at (q, v_s)
   HessianProduct product;

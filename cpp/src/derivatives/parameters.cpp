@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "derivatives/applied_derivative.hpp"
 
 namespace saltus {
 namespace {
@@ -100,6 +103,9 @@ void ParameterGradient::start(const ModelData& model) {
   body.setZero(model.tree.joints(), 10);
   for (VecX* each : {&stiffness, &rest, &damping, &armature}) each->setZero(model.tree.n_v);
   actuators.setZero(model.forces.n_u(), 4);
+  springs.setZero(static_cast<Eigen::Index>(model.mass.potentials.springs.size()), 2);
+  dampers.setZero(static_cast<Eigen::Index>(model.forces.dampers.size()));
+  restitution.clear();
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
 }
 
@@ -134,6 +140,7 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
   add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
   to.damping -= arc.v.cwiseProduct(Q);
   add_actuators(model.forces, arc, Q, to);
+  add_spring_gradient(model, arc, Q, to);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);
@@ -145,6 +152,18 @@ MatX by_link(const ModelData& model, const ParameterGradient& gradient) {
     if (link.joint < 0) continue;
     out.row(link.index) = of_link(gradient.body.row(link.joint).transpose(), link.X_JL).transpose();
   }
+  return out;
+}
+
+std::vector<PairGradient> by_pair(const ParameterGradient& gradient, const Rubbing& friction) {
+  std::map<int, PairGradient> all;
+  const auto of = [&](int pair) -> PairGradient& {
+    return all.try_emplace(pair, PairGradient{pair, 0, 0}).first->second;
+  };
+  for (const auto& [pair, by_e] : gradient.restitution) of(pair).restitution += by_e;
+  for (const int pair : friction.pairs) of(pair).friction += friction.of(pair);
+  std::vector<PairGradient> out;
+  for (const auto& each : all) out.push_back(each.second);
   return out;
 }
 

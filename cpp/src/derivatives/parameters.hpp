@@ -9,7 +9,11 @@
 // x_i.
 #pragma once
 
+#include <utility>
+
 #include "derivatives/arc_derivative.hpp"
+#include "derivatives/rubbing.hpp"
+#include "saltus/derivatives/step_derivative.hpp"
 
 namespace saltus {
 
@@ -18,6 +22,10 @@ struct ParameterGradient {
   MatX body;                                ///< (joints, 10): m, h, I as xx xy xz yy yz zz
   VecX stiffness, rest, damping, armature;  ///< (n_v)
   MatX actuators;                           ///< (n_u, 4): gain, bias, bias_l, bias_v
+  MatX springs;                             ///< (springs between points, 2): stiffness, length
+  VecX dampers;                             ///< (dampers between points)
+  /// Pair and its number, as they come: by restitution of each impulse.
+  std::vector<std::pair<int, double>> restitution;
 
   std::vector<Vec6> twist, turn;  ///< (joints) scratch
 
@@ -34,5 +42,8 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
 
 /// From bodies of joints to links: (links, 10), in each link's own frame; of fixed ones 0.
 MatX by_link(const ModelData& model, const ParameterGradient& gradient);
+
+/// By pairs, in the order of their numbers.
+std::vector<PairGradient> by_pair(const ParameterGradient& gradient, const Rubbing& friction);
 
 }  // namespace saltus

@@ -27,7 +27,7 @@ void set_arrival(const ModelData& model, FlownArc& arc, const VecX& zero, Tangen
   b.q = zero;
   b.p = zero;
   b.energy = b.h = 0;
-  push_flown(model, arc, zero, 1, b);
+  push_flown(model, arc, zero, 1, {}, b);
 }
 
 /// A force that is a function of time has a derivative by time that nobody tells.
@@ -209,6 +209,7 @@ void set_program(const ModelData& model, const Tape& tape, StepProgram& program)
   program.n_arcs = program.n_impacts = program.n_passings = 0;
   program.has_rest = true;
   program.zero.setZero(model.tree.n_v);
+  list_rubbing(tape, program.friction.pairs);
   note_time(model, program);
   for (std::size_t k = 0; k < tape.pieces.size(); ++k) {
     if (tape.pieces[k].is_arc) {

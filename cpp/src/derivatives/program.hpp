@@ -56,6 +56,7 @@ struct StepProgram {
   Tangent motion;          ///< (v, f) there
   bool tells_time = true;  ///< no force is a function of time whose derivative is not told
   std::string timed;       ///< the name of one that is
+  Rubbing friction;        ///< of the pairs that rub
   VecX dQ, zero;           ///< scratch
 };
 
@@ -82,7 +83,7 @@ void push_program(const ModelData& model, const Tape& tape, const StepDirection&
 
 /// z <- covector of the start; writes the rest of `to`.
 /// @param parameters written too, or nullptr
-void pull_program(const ModelData& model, StepProgram& program, Tangent& z, StepDirection& to,
-                  ParameterGradient* parameters);
+void pull_program(const ModelData& model, const Tape& tape, StepProgram& program, Tangent& z,
+                  StepDirection& to, ParameterGradient* parameters);
 
 }  // namespace saltus

@@ -23,6 +23,7 @@ struct StepDerivatives::Impl {
   StepDirection pull(const StateDirection& covector, bool with_parameters);
   void set_columns(Input input, MatX& out);
   double spread(const MatX& A, std::size_t impact, Smoothness& verdict);
+  bool is_at_edge() const;
   void judge(StepDerivative& out);
 
   Model shared;
@@ -57,6 +58,19 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
   fits(d.control, model.forces.n_u(), "du", "actuators");
   fits(d.qfrc, model.tree.n_v, "dqfrc", "velocities");
   fits(d.restitution, program.n_impacts, "drestitution", "impacts");
+  const auto wrenches = static_cast<Eigen::Index>(tape.input.wrenches.size());
+  if (d.forces.size() > 0 && (d.forces.rows() != wrenches || d.forces.cols() != 3)) {
+    throw ModelError("dforces is " + std::to_string(d.forces.rows()) + " by " +
+                     std::to_string(d.forces.cols()) + "; it is " + std::to_string(wrenches) +
+                     " by 3, a row for each wrench that was applied in the step");
+  }
+  const auto rubs = static_cast<Eigen::Index>(program.friction.pairs.size());
+  if (d.friction.size() > 0 && d.friction.size() != rubs) {
+    throw ModelError("dfriction has " + std::to_string(d.friction.size()) + " entries; it has " +
+                     std::to_string(rubs) +
+                     ", one for each pair that pushes with friction in the "
+                     "step (rubbing)");
+  }
 }
 
 Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
@@ -116,8 +130,23 @@ void StepDerivatives::Impl::judge(StepDerivative& out) {
       out.smoothness = worse(out.smoothness, Smoothness::one_sided);
     }
   }
+  if (is_at_edge()) out.smoothness = worse(out.smoothness, Smoothness::one_sided);
   if (program.n_passings > 0 || tape.has_settled)
     out.smoothness = worse(out.smoothness, Smoothness::grazing);
+}
+
+/// Some contact is at the edge of its cone.
+bool StepDerivatives::Impl::is_at_edge() const {
+  bool found = false;
+  for (int k = 0; k < program.n_arcs; ++k) {
+    found = found || program.arcs[static_cast<std::size_t>(k)]->is_at_edge();
+  }
+  for (int k = 0; k < program.n_impacts; ++k) {
+    const ImpactPieces& impact = *program.impacts[static_cast<std::size_t>(k)];
+    found = found || (impact.is_together && impact.kick.is_at_edge);
+    for (const FrictionDerivative& each : impact.rubbing) found = found || each.is_at_edge();
+  }
+  return found;
 }
 
 StepDerivatives::StepDerivatives(const Model& model, const StepOptions& options)
@@ -132,6 +161,11 @@ void StepDerivatives::linearize(const Tape& tape) {
   impl_->tape = tape;
   set_program(impl_->model, impl_->tape, impl_->program);
   impl_->is_set = true;
+}
+
+const std::vector<int>& StepDerivatives::rubbing() const {
+  impl_->need_step();
+  return impl_->program.friction.pairs;
 }
 
 StateDirection StepDerivatives::jvp(const StepDirection& direction) {
@@ -154,7 +188,7 @@ StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool w
   check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
   Tangent z{covector.q, covector.p, 0, 0};
   StepDirection out;
-  pull_program(model, program, z, out, with_parameters ? &parameters : nullptr);
+  pull_program(model, tape, program, z, out, with_parameters ? &parameters : nullptr);
   out.q = std::move(z.q);
   out.p = std::move(z.p);
   return out;
@@ -172,7 +206,10 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient
               all.rest,
               all.damping,
               all.armature,
-              all.actuators};
+              all.actuators,
+              all.springs,
+              all.dampers,
+              by_pair(all, impl_->program.friction)};
   return out;
 }
 
@@ -187,6 +224,9 @@ StepDerivative StepDerivatives::derivative() {
   derivative(out.A, out.B);
   impl_->set_columns(Input::qfrc, out.qfrc);
   impl_->set_columns(Input::restitution, out.restitution);
+  impl_->set_columns(Input::friction, out.friction);
+  out.rubbing = rubbing();
+  impl_->set_columns(Input::forces, out.forces);
   if (impl_->program.tells_time) {
     StepDirection by;
     by.h = 1;

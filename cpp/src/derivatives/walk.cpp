@@ -1,6 +1,7 @@
 // The pieces of a step in their order, and in reverse.
 #include <limits>
 
+#include "derivatives/applied_derivative.hpp"
 #include "derivatives/program.hpp"
 
 namespace saltus {
@@ -29,17 +30,18 @@ double duration_of(const StepProgram::Piece& piece, double h, double left) {
   return piece.kind == Kind::part ? piece.part * h : 0;
 }
 
-void push_impact(double de, ImpactPieces& impact, Tangent& z, double& left) {
+void push_impact(double de, const Rubbing& friction, ImpactPieces& impact, Tangent& z,
+                 double& left) {
   if (impact.is_together) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
     shift(impact.flow, n, impact.slope, z, left);
-    push_kick(impact.kick, VecX(), z);
+    push_kick(impact.kick, VecX(), friction, z);
     return;
   }
   for (const FrictionDerivative& each : impact.rubbing) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(each.contact)].n;
     shift(each.flow, n, each.slope, z, left);
-    push_friction(each, de, z);
+    push_friction(each, de, friction, z);
   }
   for (const ImpulseDerivative& each : impact.impulses) {
     const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each.contact)];
@@ -87,6 +89,7 @@ void push_along(const ModelData& model, const Tape& tape, const TapeImpact& told
 void push_piece(const ModelData& model, const Tape& tape, const StepDirection& by, Order order,
                 const StepProgram::Piece& piece, StepProgram& program, Tangent& z, double& left) {
   const auto k = static_cast<std::size_t>(piece.index);
+  program.friction.value = by.friction;
   if (piece.kind == Kind::impact) {
     ImpactPieces& impact = *program.impacts[k];
     const double de = entry(by.restitution, piece.index);
@@ -97,7 +100,7 @@ void push_piece(const ModelData& model, const Tape& tape, const StepDirection& b
     if (order == Order::of_direction && has_orders) {
       push_along(model, tape, tape.impacts[k], de, impact, z, left);
     } else {
-      push_impact(de, impact, z, left);
+      push_impact(de, program.friction, impact, z, left);
     }
     return;
   }
@@ -109,8 +112,13 @@ void push_piece(const ModelData& model, const Tape& tape, const StepDirection& b
   FlownArc& arc = *program.arcs[k];
   program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
   if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
+  for (Eigen::Index i = 0; i < by.forces.rows(); ++i) {
+    const Vec3 force = by.forces.row(i).transpose();
+    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(i)], force,
+             program.dQ);
+  }
   const double dtau = duration_of(piece, by.h, left);
-  push_flown(model, arc, program.dQ, dtau, z);
+  push_flown(model, arc, program.dQ, dtau, program.friction, z);
   left = piece.kind == Kind::rest ? 0 : left - dtau;
 }
 
@@ -130,12 +138,19 @@ void push_program(const ModelData& model, const Tape& tape, const StepDirection&
 
 namespace {
 
+/// Of one impulse. What does not rebound has another motion after it than what does a little.
+void add_restitution(const NodeDerivative& node, int contact, double restitution, double of_e,
+                     ParameterGradient* to) {
+  if (to == nullptr || !(restitution > 0)) return;
+  to->restitution.emplace_back(node.pairs[static_cast<std::size_t>(contact)], of_e);
+}
+
 double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Tangent& z,
-                   ParameterGradient* to) {
+                   Rubbing& friction, ParameterGradient* to) {
   if (impact.is_together) {
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
     VecX extra, residual;
-    pull_kick(impact.kick, VecX(), z, extra, residual);
+    pull_kick(impact.kick, VecX(), z, extra, residual, friction);
     if (to != nullptr && residual.size() > 0) {
       add_kick_gradient(model, impact.node.q, impact.kick, residual, impact.node.w, *to);
     }
@@ -144,14 +159,18 @@ double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Ta
   }
   double of_e = 0;
   for (auto each = impact.rubbing.rbegin(); each != impact.rubbing.rend(); ++each) {
-    of_e += pull_friction(model, *each, impact.node, z, to);
+    const double of_own = pull_friction(model, *each, impact.node, z, friction, to);
+    add_restitution(impact.node, each->contact, each->restitution, of_own, to);
+    of_e += of_own;
     const VecX& n = impact.node.gaps[static_cast<std::size_t>(each->contact)].n;
     shift_back(each->flow, n, each->slope, z, left);
   }
   for (auto each = impact.impulses.rbegin(); each != impact.impulses.rend(); ++each) {
     const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each->contact)];
     const double of_lambda = pull_impulse(gap, *each, z);
-    of_e -= each->u / each->G * of_lambda;
+    const double of_own = -each->u / each->G * of_lambda;
+    add_restitution(impact.node, each->contact, each->restitution, of_own, to);
+    of_e += of_own;
     if (to != nullptr) {
       evaluate_at_compression(model, *each, impact.node);
       const double factor = of_lambda * (1 + each->restitution) / each->G;
@@ -164,19 +183,24 @@ double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Ta
 
 }  // namespace
 
-void pull_program(const ModelData& model, StepProgram& program, Tangent& z, StepDirection& to,
-                  ParameterGradient* parameters) {
+void pull_program(const ModelData& model, const Tape& tape, StepProgram& program, Tangent& z,
+                  StepDirection& to, ParameterGradient* parameters) {
   if (parameters != nullptr) parameters->start(model);
   to.control.setZero(model.forces.n_u());
   to.qfrc.setZero(model.tree.n_v);
   to.restitution.setZero(program.n_impacts);
+  Rubbing& friction = program.friction;
+  friction.value.setZero(static_cast<Eigen::Index>(friction.pairs.size()));
+  const std::vector<AppliedWrench>& wrenches = tape.input.wrenches;
+  to.forces.setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
   to.h = 0;
   double left = 0;
   if (program.has_rest) left = program.motion.q.dot(z.q) + program.motion.p.dot(z.p);
   for (auto piece = program.pieces.rbegin(); piece != program.pieces.rend(); ++piece) {
     const auto k = static_cast<std::size_t>(piece->index);
     if (piece->kind == Kind::impact) {
-      to.restitution[piece->index] = pull_impact(model, left, *program.impacts[k], z, parameters);
+      to.restitution[piece->index] =
+          pull_impact(model, left, *program.impacts[k], z, friction, parameters);
       continue;
     }
     if (piece->kind == Kind::pass) {
@@ -186,13 +210,18 @@ void pull_program(const ModelData& model, StepProgram& program, Tangent& z, Step
     }
     FlownArc& arc = *program.arcs[k];
     program.dQ.setZero(model.tree.n_v);
-    const double of_tau = pull_flown(model, arc, program.dQ, z, parameters);
+    const double of_tau = pull_flown(model, arc, program.dQ, z, friction, parameters);
     to.qfrc += program.dQ;
     if (to.control.size() > 0) to.control += arc.arc.Q_u.transpose() * program.dQ;
+    for (std::size_t i = 0; i < wrenches.size(); ++i) {
+      const Vec3 of_force = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
+      to.forces.row(static_cast<Eigen::Index>(i)) += of_force.transpose();
+    }
     if (piece->kind == Kind::rest) left = of_tau;
     if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);
   }
   if (program.start.q.size() > 0) program.start.pull(z.energy, z);
+  to.friction = friction.value;
   to.h += left + z.h;
 }
 

@@ -1,6 +1,7 @@
 #include "saltus/rollout/adjoint.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace saltus {
 namespace {
@@ -21,6 +22,7 @@ struct Backwards {
   Stepper stepper;
   StepDerivatives derivatives;
   std::vector<Tape> tapes;
+  std::map<int, PairGradient> pairs;  ///< sums, by number
   Eigen::Index count = 0;
 
   Backwards(const Model& with, const StepOptions& options, const RunRows& of,
@@ -31,10 +33,29 @@ struct Backwards {
     if (goes_on && count++ % 256 == 0) goes_on();
   }
 
+  void add(const PairGradient& each) {
+    PairGradient& sum = pairs.try_emplace(each.pair, PairGradient{each.pair, 0, 0}).first->second;
+    sum.restitution += each.restitution;
+    sum.friction += each.friction;
+  }
+
   ForceInput input_of(Eigen::Index k) const {
     ForceInput input;
     if (rows.control.cols() > 0) input.control = rows.control.row(k).transpose();
+    input.qfrc = rows.qfrc;
+    input.wrenches = rows.wrenches;
     return input;
+  }
+
+  /// What was applied is not in the rows: with something else steps end elsewhere.
+  void check_end(Eigen::Index k, const State& end) const {
+    if (rows.qfrc.size() == 0 && rows.wrenches.empty()) return;
+    const VecX p = rows.p.row(k + 1).transpose();
+    const double away = (end.p - p).norm();
+    if (away <= 1e-6 * (1 + p.norm())) return;  // far beyond what rounding does to a step
+    throw ModelError("step " + std::to_string(k) + " made again ends with other momenta than the " +
+                     "run has, by " + std::to_string(away) +
+                     ": forces or qfrc are not those that were applied");
   }
 
   /// Tapes of the steps [first, last). A block continues its own states and not the rows: these may
@@ -49,6 +70,7 @@ struct Backwards {
       stepper.record(k >= first);
       stepper.step(state, input_of(k));
       if (k < first) continue;
+      if (k == first) check_end(k, state);
       if (stepper.tape() != nullptr) tapes[static_cast<std::size_t>(k - first)] = *stepper.tape();
     }
   }
@@ -67,6 +89,9 @@ struct Backwards {
     }
     to.control.row(k) = back.control.transpose();
     to.qfrc.row(k) = back.qfrc.transpose();
+    for (Eigen::Index i = 0; i < back.forces.rows(); ++i) {
+      to.forces.block<1, 3>(k, 3 * i) = back.forces.row(i);
+    }
     to.h += back.h;
     to.model.inertia += by_model.inertia;
     to.model.stiffness += by_model.stiffness;
@@ -74,6 +99,9 @@ struct Backwards {
     to.model.damping += by_model.damping;
     to.model.armature += by_model.armature;
     to.model.actuators += by_model.actuators;
+    to.model.springs += by_model.springs;
+    to.model.dampers += by_model.dampers;
+    for (const PairGradient& each : by_model.pairs) add(each);
     hat.q = std::move(back.q);
     hat.p = std::move(back.p);
   }
@@ -90,19 +118,23 @@ void check_rows(const Model& model, const RunRows& rows, const MatX& q_hat, cons
   check(rows.q, model.n_q(), "q");
   check(rows.p, model.n_v(), "p");
   check(rows.control, model->forces.n_u(), "control");
+  if (rows.qfrc.size() > 0) check_vector(rows.qfrc, model.n_v(), "qfrc", "velocities");
   check(q_hat, model.n_v(), "q_hat");
   check(p_hat, model.n_v(), "p_hat");
 }
 
-RunGradient zero_of(const Model& model, Eigen::Index steps) {
+RunGradient zero_of(const Model& model, const RunRows& rows, Eigen::Index steps) {
   const int n = model.n_v();
   RunGradient out;
   out.control.setZero(steps, model->forces.n_u());
   out.qfrc.setZero(steps, n);
+  out.forces.setZero(steps, static_cast<Eigen::Index>(3 * rows.wrenches.size()));
   ModelGradient& g = out.model;
   g.inertia.setZero(static_cast<Eigen::Index>(model->links.size()), 10);
   for (VecX* each : {&g.stiffness, &g.rest, &g.damping, &g.armature}) each->setZero(n);
   g.actuators.setZero(model->forces.n_u(), 4);
+  g.springs.setZero(static_cast<Eigen::Index>(model->mass.potentials.springs.size()), 2);
+  g.dampers.setZero(static_cast<Eigen::Index>(model->forces.dampers.size()));
   return out;
 }
 
@@ -112,7 +144,7 @@ RunGradient adjoint(const Model& model, const StepOptions& options, const RunRow
                     const MatX& q_hat, const MatX& p_hat, const std::function<void()>& goes_on) {
   check_rows(model, rows, q_hat, p_hat);
   const Eigen::Index steps = rows.t.size() - 1, block = block_length(model);
-  RunGradient out = zero_of(model, steps);
+  RunGradient out = zero_of(model, rows, steps);
   StepOptions plain = options;
   plain.certify = false;  // proofs change no step
   Backwards run(model, plain, rows, goes_on);
@@ -127,6 +159,7 @@ RunGradient adjoint(const Model& model, const StepOptions& options, const RunRow
     }
     last = first;
   }
+  for (const auto& each : run.pairs) out.model.pairs.push_back(each.second);
   out.q = std::move(hat.q);
   out.p = std::move(hat.p);
   return out;

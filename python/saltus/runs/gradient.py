@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from saltus._core import ImpactLaw, ModelError, adjoint
+from saltus._core import ImpactLaw, ModelError, Wrench, adjoint
 from saltus.records.options import step_arguments
 from saltus.records.recording import Recording
 
@@ -35,6 +36,15 @@ class RunGradient:
         By the joints' own, likewise.
     actuators : numpy.ndarray, shape (n_u, 4)
         By what the actuators have, likewise.
+    restitution, friction : dict of str to float
+        By the restitution and the coefficient of friction of each pair that rebounded or slid,
+        likewise; by one number that all pairs have: the sum.
+    springs : dict of str to tuple of float
+        By stiffness and length of each spring between two points, likewise.
+    dampers : dict of str to float
+        By the damping of each damper between two points, likewise.
+    forces : dict of str to numpy.ndarray, shape (steps, 3)
+        [1/N] By the force of each wrench that was applied, by its link, in each step.
     """
 
     q: Array
@@ -48,6 +58,25 @@ class RunGradient:
     damping: Array
     armature: Array
     actuators: Array
+    restitution: dict[str, float]
+    friction: dict[str, float]
+    springs: dict[str, tuple[float, float]]
+    dampers: dict[str, float]
+    forces: dict[str, Array]
+
+
+BY_MODEL = (
+    "inertia",
+    "stiffness",
+    "rest",
+    "damping",
+    "armature",
+    "actuators",
+    "restitution",
+    "friction",
+    "springs",
+    "dampers",
+)
 
 
 def rows_of(x: npt.ArrayLike, name: str, rows: int, n: int) -> Array:
@@ -71,8 +100,11 @@ def step_options(run: Recording) -> dict[str, Any]:
     return step_arguments(run.options)
 
 
-def check_run(run: Recording) -> None:
-    """Raise ModelError where the steps of a run cannot be made again from its rows."""
+def check_run(run: Recording, *, is_told: bool = False) -> None:
+    """Raise ModelError where the steps of a run cannot be made again from its rows.
+
+    `is_told`: what was applied is told beside the rows.
+    """
     if run.model is None:
         raise ModelError("the run has no model; saltus.load reads it where the file has one")
     h = run.options.h
@@ -82,23 +114,30 @@ def check_run(run: Recording) -> None:
             f"the run has {len(run.t)} rows of {steps} steps; derivatives need a row each, as "
             "record_every=1 gives"
         )
-    if np.any(run.work["applied"]):
+    if np.any(run.work["applied"]) and not is_told:
         raise ModelError(
-            "forces were applied in the run, which it does not record; give them as actuators"
+            "forces were applied in the run, which it does not record; give them as actuators, or "
+            "tell run.gradient what simulate had as forces= and qfrc="
         )
     if run.options.law == ImpactLaw.custom:
         raise ModelError("the run's impact law is a function, whose derivatives are not told")
 
 
-def gradient(run: Recording, q_hat: npt.ArrayLike, p_hat: npt.ArrayLike) -> RunGradient:
+def gradient(
+    run: Recording,
+    q_hat: npt.ArrayLike,
+    p_hat: npt.ArrayLike,
+    forces: Mapping[str, Wrench] | None,
+    qfrc: Mapping[str, npt.ArrayLike] | npt.ArrayLike | None,
+) -> RunGradient:
     """Return the gradient of a cost, see `Trajectory.gradient`."""
-    check_run(run)
+    check_run(run, is_told=forces is not None or qfrc is not None)
     assert run.model is not None  # check_run asks for one
     rows, n_v = len(run.t), run.model.n_v
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)
-    q, p, control, qfrc, h, of_model = adjoint(
-        run.model, run.options, run.t, run.q, run.p, run.control, by_q, by_p
-    )
-    names = ("inertia", "stiffness", "rest", "damping", "armature", "actuators")
-    return RunGradient(q, p, control, qfrc, h, **{name: getattr(of_model, name) for name in names})
+    rows_told = (run.model, run.options, run.t, run.q, run.p, run.control)
+    q, p, control, by_qfrc, by_forces, h, of_model = adjoint(*rows_told, by_q, by_p, forces, qfrc)
+    by_link = {str(link): by_forces[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
+    parts = {name: getattr(of_model, name) for name in BY_MODEL}
+    return RunGradient(q, p, control, by_qfrc, h, **parts, forces=by_link)

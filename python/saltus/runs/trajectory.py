@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from saltus import _core, plots
-from saltus._core import Model, ModelError
+from saltus._core import Model, ModelError, Wrench
 from saltus.records import files
 from saltus.records.tables import as_array
 from saltus.runs.gradient import RunGradient, gradient
@@ -149,7 +150,14 @@ class Trajectory(Shown):
         core = _core.Trajectory.from_states(model, times, configurations, rows, momenta, h)
         return cls.from_core(core)
 
-    def gradient(self, q_hat: ArrayLike, p_hat: ArrayLike) -> RunGradient:
+    def gradient(
+        self,
+        q_hat: ArrayLike,
+        p_hat: ArrayLike,
+        *,
+        forces: Mapping[str, Wrench] | None = None,
+        qfrc: Mapping[str, ArrayLike] | ArrayLike | None = None,
+    ) -> RunGradient:
         """Return the gradient of a cost of the run by what it was made from.
 
         The adjoint method: every step is made again from its row, the last first, and its
@@ -160,6 +168,9 @@ class Trajectory(Shown):
         q_hat, p_hat : array_like, shape (rows, n_v) or (n_v,)
             The gradient of the cost by the state of each row, q along velocities; or by that of
             the last row alone.
+        forces : mapping of links' names to Wrench, optional
+        qfrc : mapping of names to values, or array_like, shape (n_v,), optional
+            What was applied in all steps, as `simulate` was given it; the rows do not tell it.
 
         Returns
         -------
@@ -169,7 +180,8 @@ class Trajectory(Shown):
         ------
         ModelError
             Where a step has no derivative, named as by `Stepper.jvp`; where rows are not those of
-            every step; where forces were applied, which a run does not record.
+            every step; where forces were applied, which a run does not record, and are not told,
+            or others than those.
 
         Examples
         --------
@@ -179,7 +191,7 @@ class Trajectory(Shown):
         >>> run.gradient(q_hat=[1.0], p_hat=[0.0]).q.shape
         (1,)
         """
-        return gradient(self, q_hat, p_hat)
+        return gradient(self, q_hat, p_hat, forces, qfrc)
 
     def save(self, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
         """Write everything to an HDF5 file, with the model in it.

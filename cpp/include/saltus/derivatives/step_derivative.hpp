@@ -31,7 +31,7 @@ namespace saltus {
 enum class Smoothness {
   smooth,           ///< one derivative in all directions
   selection,        ///< of one order of several impacts; others differ by `spread`
-  one_sided,        ///< contacts only just touch, or the impact is at an end of the step
+  one_sided,        ///< contacts only just touch, stick or slide; an impact is at the step's end
   order_dependent,  ///< the outcome depends on the order: the derivative is of one side of a jump
   grazing,          ///< an impact so weak that it is lost with a change of the start by `depth`
 };
@@ -47,6 +47,15 @@ struct StepDirection {
   VecX qfrc;         ///< (n_v) [N m | N] of forces on the coordinates
   double h = 0;      ///< [s]
   VecX restitution;  ///< (impacts) of each impact, all its contacts alike
+  VecX friction;     ///< (rubbing) of each pair in StepDerivatives::rubbing
+  MatX forces;       ///< (wrenches, 3) [N] of the force of each wrench that was applied
+};
+
+/// What happens where a pair touches, as a covector has it.
+struct PairGradient {
+  int pair;            ///< its number
+  double restitution;  ///< by e; 0 of what does not rebound
+  double friction;     ///< by mu; 0 of what sticks
 };
 
 /// A covector of what the model is made of.
@@ -61,6 +70,9 @@ struct ModelGradient {
   /// (n_u, 4) gain, bias, bias_l and bias_v of each actuator (force_model.hpp); 0 where it pushes
   /// all it can.
   MatX actuators;
+  MatX springs;  ///< (springs between points, 2) [N/m], [m] by stiffness and length
+  VecX dampers;  ///< (dampers between points) [N s/m]
+  std::vector<PairGradient> pairs;  ///< that rebound or rub, by their numbers; of others 0
 };
 
 /// Of the state that a step ends in.
@@ -85,6 +97,9 @@ struct StepDerivative {
   MatX qfrc;                                   ///< (2 n_v, n_v) by forces on the coordinates
   VecX h;                                      ///< (2 n_v) by the step's duration
   MatX restitution;                            ///< (2 n_v, impacts)
+  MatX friction;                               ///< (2 n_v, rubbing) by each pair's friction
+  std::vector<int> rubbing;                    ///< numbers of these pairs
+  MatX forces;                                 ///< (2 n_v, 3 wrenches) by each one's force
   Smoothness smoothness = Smoothness::smooth;  ///< what all this is worth
   std::vector<ImpactDerivative> impacts;       ///< in order
 };
@@ -111,6 +126,8 @@ class SALTUS_EXPORT StepDerivatives {
   /// Takes up the tape of a step (Stepper::tape): evaluates its arcs again, and factors them.
   /// @throws ModelError that names what of the step has no derivative
   void linearize(const Tape& tape);
+  /// Numbers of the pairs that push with friction in the step.
+  const std::vector<int>& rubbing() const;
 
   /// The direction of the step's end, in O(n).
   /// @throws ModelError where an array does not fit

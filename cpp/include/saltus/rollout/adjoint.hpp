@@ -13,6 +13,7 @@ struct RunGradient {
   VecX p;               ///< (n_v) of the same
   MatX control;         ///< (steps, n_u)
   MatX qfrc;            ///< (steps, n_v) [1/(N m) | 1/N] by forces on the coordinates
+  MatX forces;          ///< (steps, 3 wrenches) [1/N] by the force of each wrench
   double h = 0;         ///< [1/s] by the duration of all steps alike
   ModelGradient model;  ///< by what the model is made of, p of the start held
 };
@@ -23,14 +24,16 @@ struct RunRows {
   MatX q;        ///< (rows, n_q)
   MatX p;        ///< (rows, n_v)
   MatX control;  ///< (rows, n_u) of the step from this row on; the last is not used
+  VecX qfrc;     ///< (n_v) applied in all steps, or empty: 0
+  std::vector<AppliedWrench> wrenches;  ///< likewise
 };
 
 /// q_hat and p_hat (rows, n_v) are the derivatives of the cost by each row's state. The steps are
 /// made once more, forwards, and their tapes kept for as long as they take little memory: of a
 /// longer run part by part, each from the run's own row. Two steps of work a step, about.
 /// @param goes_on asked every 256 steps: what it throws ends all; may be empty
-/// @throws ModelError on rows that do not fit the model; where a step has no derivative, which one
-/// and why; what Stepper::advance throws
+/// @throws ModelError on rows that do not fit the model, or what was applied; where a step has no
+/// derivative, which one and why; what Stepper::advance throws
 SALTUS_EXPORT RunGradient adjoint(const Model& model, const StepOptions& options,
                                   const RunRows& rows, const MatX& q_hat, const MatX& p_hat,
                                   const std::function<void()>& goes_on = {});
