@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import json
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,7 @@ from saltus._core import Impact, Model, ModelError, Pose, StepReport, gap
 from saltus.records.pairs import ShapePair, pair_name, pairs_of_model, shape_names
 from saltus.records.tables import Array
 
-RECENT = 0.25  # s on the wall that impacts are told again: a slow page misses frames, not impacts
-MOST_IMPACTS = 40  # that are told at a time
+MOST_IMPACTS = 40  # that are kept for pages which come late to them
 MOST_ARROWS = 200  # of an impact, and of forces
 
 
@@ -43,7 +42,7 @@ class Events:
         """Begin anew, as after a reset."""
         self.beginning += 1
         self.count = 0  # of impacts
-        self._impacts: list[tuple[float, dict[str, Any]]] = []  # each with its time on the wall
+        self.impacts: tuple[tuple[int, str], ...] = ()  # the last: number, and JSON for pages
         self.forces: list[list[Any]] = []  # of the step just made
 
     def choose(self, pair: int) -> None:
@@ -54,21 +53,20 @@ class Events:
 
     def add(self, report: StepReport) -> None:
         """Take in what a step reports."""
-        now = time.monotonic()
-        self._impacts += [(now, self._told(impact)) for impact in report.impacts]
-        kept = [(then, each) for then, each in self._impacts if then > now - RECENT]
-        self._impacts = (kept or self._impacts[-1:])[-MOST_IMPACTS:]
+        if report.impacts:
+            fresh = (self._told(impact) for impact in report.impacts)
+            told = ((each["number"], json.dumps(each)) for each in fresh)
+            self.impacts = (*self.impacts, *told)[-MOST_IMPACTS:]
         self.forces = [
             _arrow(c.pair, c.point, (c.impulse * c.normal + c.tangential) / self.h, c.normal)
             for c in report.contacts[:MOST_ARROWS]
         ]
 
     def told(self, q: Array) -> dict[str, Any]:
-        """Return what a frame tells at coordinates q; pages know impacts again by their numbers."""
+        """Return what a frame tells all pages alike at coordinates q."""
         phi = self._phi(q, self._pairs[self.chosen]) if self.pairs else None
         return {
             "beginning": self.beginning,
-            "impacts": [impact for _, impact in self._impacts],
             "forces": self.forces,
             "gap": {"pair": self.chosen, "phi": phi},
         }

@@ -14,6 +14,7 @@ import numpy as np
 
 from saltus._core import Model, ModelError, State, StepError, Stepper
 from saltus.view.events import Events
+from saltus.view.frames import Frame
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.parts import Parts
 from saltus.view.pull import Pull, force_of
@@ -62,7 +63,7 @@ class Live:
         self.lock = threading.Lock()
         self.asking = threading.Event()
         self.news = threading.Condition()
-        self.frame = (0, b"")
+        self.frame = Frame()
         self.pages = 0
         self.last_page = -1.0  # when the last page went; -1: none came yet
         self.actions: dict[str, Callable[[dict[str, Any]], None]] = {
@@ -125,23 +126,28 @@ class Live:
         with self.lock:
             text = self._frame()
             with self.news:  # within: an older frame must not come after a newer one
-                self.frame = (self.frame[0] + 1, text)
+                number, events = self.frame.number + 1, self.events
+                self.frame = Frame(number, text, events.beginning, events.impacts)
                 self.news.notify_all()
 
     def stream(self, out: BufferedIOBase) -> None:
-        """Write frames to a page until it is closed."""
+        """Write frames to a page until it is closed.
+
+        A slow page misses frames, not impacts: each page is told those that it does not know.
+        """
         with self.news:
             self.pages += 1
         try:
-            seen = -1
+            seen = Frame()
             while True:
                 with self.news:
-                    if self.frame[0] == seen:
+                    if self.frame.number == seen.number:
                         self.news.wait(QUIET)
-                    number, text = self.frame
-                out.write(b"data: " + text + b"\n\n" if number != seen else b":\n\n")
+                    frame = self.frame
+                is_new = frame.number != seen.number
+                out.write(b"data: " + frame.since(seen) + b"\n\n" if is_new else b":\n\n")
                 out.flush()
-                seen = number
+                seen = frame
         except OSError:
             pass  # the page is closed
         finally:
@@ -178,7 +184,7 @@ class Live:
             return
         self.events.add(self.stepper.report)
 
-    def _frame(self) -> bytes:
+    def _frame(self) -> str:
         q = np.asarray(self.state.q)
         poses = np.ascontiguousarray(self.parts.poses(q[np.newaxis])[0], "<f4")
         return json.dumps(
@@ -195,7 +201,7 @@ class Live:
                 "problem": self.problem,
                 "sent": time.time(),
             }
-        ).encode()
+        )
 
     def _play(self, playing: bool) -> None:
         self.playing = playing
