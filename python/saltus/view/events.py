@@ -18,6 +18,16 @@ MOST_ARROWS = 200  # of an impact, and of forces
 class Events:
     """What steps report, as pages are told it.
 
+    Parameters
+    ----------
+    model : Model
+    q : numpy.ndarray, shape (n_q,)
+        At the start.
+    h : float
+        [s] the time step.
+    origin : numpy.ndarray, shape (3,)
+        [m] what places on the page are relative to.
+
     Attributes
     ----------
     pairs : list of str
@@ -26,8 +36,8 @@ class Events:
         Which of them is told, at first 0.
     """
 
-    def __init__(self, model: Model, q: Array, h: float) -> None:
-        self.model, self.h = model, h
+    def __init__(self, model: Model, q: Array, h: float, origin: Array) -> None:
+        self.model, self.h, self.origin = model, h, origin
         self._shapes = model.shapes  # asked once: the model makes this list anew each time
         pairs = pairs_of_model(model)
         phi = [self._phi(q, pair) for pair in pairs]
@@ -58,7 +68,7 @@ class Events:
             told = ((each["number"], json.dumps(each)) for each in fresh)
             self.impacts = (*self.impacts, *told)[-MOST_IMPACTS:]
         self.forces = [
-            _arrow(c.pair, c.point, (c.impulse * c.normal + c.tangential) / self.h, c.normal)
+            self._arrow(c.pair, c.point, (c.impulse * c.normal + c.tangential) / self.h, c.normal)
             for c in report.contacts[:MOST_ARROWS]
         ]
 
@@ -81,7 +91,7 @@ class Events:
             "t": impact.t,
             "certificate": impact.certificate,
             "impulses": list(zip(impact.pairs, impact.lambdas.tolist(), strict=True))[:MOST_ARROWS],
-            "arrows": [_arrow(*row) for row in rows[:MOST_ARROWS]],
+            "arrows": [self._arrow(*row) for row in rows[:MOST_ARROWS]],
             "closed": sorted(closed - {-1}),  # numbers of pairs: their gaps are 0 at this instant
         }
 
@@ -92,6 +102,5 @@ class Events:
             ends += [self._shapes[i].shape, Pose(X[:3, 3], X[:3, :3])]
         return float(gap(*ends).phi)
 
-
-def _arrow(pair: str, point: Array, vector: Array, normal: Array) -> list[Any]:
-    return [pair, point.tolist(), vector.tolist(), normal.tolist()]
+    def _arrow(self, pair: str, point: Array, vector: Array, normal: Array) -> list[Any]:
+        return [pair, (point - self.origin).tolist(), vector.tolist(), normal.tolist()]

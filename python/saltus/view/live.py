@@ -44,7 +44,7 @@ class Live:
     def __init__(self, model: Model, state: State, *, h: float) -> None:
         self.model, self.start, self.state, self.h = model, state, state, h
         self.stepper = Stepper(model, h)
-        self.parts = Parts(model)
+        self.parts = Parts(model, np.asarray(state.q))
         self.scene = scene_of_model(model, self.parts, state, h)
         self.sliders = sliders_of(model, reach=max(1.0, _size(self.parts, state)))
         self.scene["sliders"] = [
@@ -52,7 +52,7 @@ class Live:
             for s in self.sliders
         ]
         self.scene["controls"] = controls_of(model)
-        self.events = Events(model, np.asarray(state.q), h)
+        self.events = Events(model, np.asarray(state.q), h, self.parts.origin)
         self.scene["gaps"]["pairs"] = self.events.pairs
         self.playing = True
         self.speed = 1.0
@@ -240,7 +240,7 @@ class Live:
         at, to = (np.array(asked[name], float) for name in ("at", "to"))
         if at.shape != (3,) or to.shape != (3,) or not np.isfinite([at, to]).all():
             raise ModelError("pull: two points of three numbers are to be given")
-        self.pull, self.pulled = Pull(link, at, to), self.model.links[link].name
+        self.pull, self.pulled = Pull(link, at, to + self.parts.origin), self.model.links[link].name
 
     def _release(self) -> None:
         self.pull = None
@@ -273,5 +273,5 @@ def serve(model: Model, state: State, *, h: float, opened: Callable[[str], None]
 
 def _size(parts: Parts, state: State) -> float:
     """Return how far bodies are from the origin [m]."""
-    at = parts.poses(np.asarray(state.q)[np.newaxis])[0, :, :3]
+    at = parts.origin + parts.poses(np.asarray(state.q)[np.newaxis])[0, :, :3]
     return float(np.linalg.norm(at, axis=1).max(initial=0.0))

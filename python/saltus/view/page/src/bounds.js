@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { bodyMatrix, matrixOf } from './items.js';
 
 const ROWS = 200; // of the motion that are looked at
+const LEAST = 1e-9; // m; what is smaller is a point
 const RARE = 0.04; // part of the time that a body may be out of the picture, at either end
 
 // Returns { box, radius, body }: box of the scene [m], half of its diagonal, typical radius of a body.
@@ -18,7 +19,7 @@ export function boundsOf(data, motion) {
   if (box.isEmpty()) box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   const radii = items.filter((item) => item.body >= 0).map((item) => reach(data, item));
   radii.sort((a, b) => a - b);
-  const half = Math.max(diagonal(box) / 2, 1e-3);
+  const half = diagonal(box) > LEAST ? diagonal(box) / 2 : 0.5;
   return { box, radius: half, body: radii.length ? radii[radii.length >> 1] : half / 8 };
 
   // Of each item and each pivot: least and greatest coordinates over time, in order.
