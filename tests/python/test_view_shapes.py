@@ -160,8 +160,41 @@ def test_a_model_without_shapes_is_drawn_by_its_joints(open_page):
     run = saltus.simulate(model, {"joint_0": 0.5}, duration=0.5)
     tab = open_page(run)
     assert "no shapes" in tab.run("document.getElementById('notices').textContent")
-    assert tab.run("saltus.page.items.all.filter((i) => i.kind === 'thread').length") == 3
+    # from each pivot to the next, and from the last to the middle of its link
+    threads = tab.run("saltus.page.items.all.filter((i) => i.kind === 'thread').length")
+    assert threads == 4
     assert tab.run("document.getElementById('show-frame').checked")
+    assert_seen(tab, run)
+    quiet(tab)
+
+
+def assert_seen(tab, run: saltus.Trajectory) -> None:
+    """Assert that the last body's centre of mass is in the picture and clear of its words."""
+    link = run.model.links[-1]
+    head, wide, high = tab.run(
+        "[document.getElementById('head').getBoundingClientRect().bottom,"
+        " saltus.page.stage.canvas.clientWidth, saltus.page.stage.canvas.clientHeight]"
+    )
+    for row in (0, -1):
+        tab.seek(run.t[row])
+        pose = run.model.pose(run.q[row], link.name)
+        for p in (pose.p, pose * link.inertia.c_J):
+            x, y, _ = tab.run(f"saltus.project({p.tolist()})")
+            assert 0 < x < wide
+            assert head < y < high
+
+
+@pytest.mark.parametrize("size", [(1100, 700), (360, 640)])
+def test_a_mass_without_a_shape_hangs_on_a_thread(size, open_page):
+    builder = saltus.ModelBuilder("pendulum").add_link("bob", saltus.BodyInertia(1, (0, 0, -3)))
+    builder.add_joint("swing", "revolute", parent="world", child="bob", axis=(0, 1, 0))
+    run = saltus.simulate(builder.build(), {"swing": 3.0}, duration=2.0)
+    tab = open_page(run, size)
+    assert_seen(tab, run)
+    tab.settle()
+    drawn = tab.picture()
+    tab.run("document.getElementById('show-thread').click()")
+    assert (np.abs(drawn - tab.picture()).max(axis=2) > 30).sum() > 100  # px of the thread
     quiet(tab)
 
 

@@ -76,7 +76,7 @@ class Live:
             "control": self._control,
             "pull": self._pull,
             "release": lambda _: self._release(),
-            "gap": lambda asked: self.events.choose(int(asked["pair"])),
+            "gap": lambda asked: self.events.choose(_number(asked, "pair", len(self.events.pairs))),
         }
 
     def page(self) -> str:
@@ -223,7 +223,7 @@ class Live:
         self.speed = float(np.clip(value, *SPEEDS))
 
     def _set(self, asked: dict[str, Any]) -> None:
-        slider = self.sliders[int(asked["slider"])]
+        slider = self.sliders[_number(asked, "slider", len(self.sliders))]
         state = posture(self.model, self.state, slider, float(asked["value"]))
         Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
         self.state, self.problem = state, ""
@@ -233,10 +233,10 @@ class Live:
         value = float(asked["value"])
         if not np.isfinite(value):
             raise ModelError(f"control = {value:g}; it is a number")
-        self.control[int(asked["actuator"])] = value
+        self.control[_number(asked, "actuator", len(self.control))] = value
 
     def _pull(self, asked: dict[str, Any]) -> None:
-        link = self.parts.bodies[int(asked["body"])]
+        link = self.parts.bodies[_number(asked, "body", len(self.parts.bodies))]
         at, to = (np.array(asked[name], float) for name in ("at", "to"))
         if at.shape != (3,) or to.shape != (3,) or not np.isfinite([at, to]).all():
             raise ModelError("pull: two points of three numbers are to be given")
@@ -269,6 +269,14 @@ def serve(model: Model, state: State, *, h: float, opened: Callable[[str], None]
         live.tell()
         opened(server.url)
         live.run(live.is_left)
+
+
+def _number(asked: dict[str, Any], name: str, count: int) -> int:
+    """Return the number of a thing that the page named; raise ModelError where there is none."""
+    number = asked[name]
+    if not (isinstance(number, int) and 0 <= number < count):
+        raise ModelError(f"{asked['do']}: no {name} {number!r}; there are {count}")
+    return number
 
 
 def _size(parts: Parts, state: State) -> float:

@@ -180,8 +180,9 @@ class Parts:
     def _threads(self) -> Array:
         """Return lines fixed to bodies, rows of body and two points in its frame, shape (n, 7).
 
-        They go from the pivot of a turning joint to the shapes that hang on it, and in links
-        without shapes on to the next joints: so that a pendulum and an arm can be seen.
+        They go from the pivot of a turning joint to the shapes that hang on it, and in bodies
+        without shapes on to the next joints, or to the centre of mass where there are none: so that
+        a pendulum and an arm can be seen.
         """
         rows: list[list[float]] = []
         shaped = set()
@@ -204,7 +205,22 @@ class Parts:
                 continue
             if np.linalg.norm(X_BJ[:3, 3]) > 1e-9:
                 rows.append([body, 0.0, 0.0, 0.0, *X_BJ[:3, 3]])
+        drawn = shaped | {int(row[0]) for row in rows}
+        rows += [[body, 0.0, 0.0, 0.0, *p] for body, p in self._masses() if body not in drawn]
         return np.array(rows, float).reshape(-1, 7)
+
+    def _masses(self) -> list[tuple[int, Array]]:
+        """Return the bodies that turn, and the middle of the mass of each away from its pivot."""
+        mass = np.zeros(len(self.bodies))
+        moment = np.zeros((len(self.bodies), 3))
+        for i, link in enumerate(self.links):
+            body, X_BL = self._in_body(i, self._links[i])
+            if body is not None and body != WORLD:
+                mass[body] += link.mass
+                moment[body] += link.mass * (X_BL[:3, :3] @ link.inertia.c_J + X_BL[:3, 3])
+        turning = [b for b in np.flatnonzero(mass) if self._turns(self.bodies[b])]
+        middles = [(int(b), moment[b] / mass[b]) for b in turning]
+        return [(b, p) for b, p in middles if np.linalg.norm(p) > 1e-9]
 
     def _turns(self, link: int) -> bool:
         """Whether the joint that carries a link turns it about the origin of its frame."""
