@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from browser import quiet, until
 
 import saltus
 from saltus.cli.main import main
@@ -19,6 +20,8 @@ def test_a_cradle_at_rest_is_started_and_its_page_plays(tmp_path, capsys, open_p
     tab = open_page_of(page)
     assert tab.run("saltus.page.clock.end") == 10.0
     assert tab.run("saltus.page.data.autoplay")
+    until(lambda: tab.run("saltus.time") > 0)
+    quiet(tab)
 
 
 def test_bodies_that_overlap_are_moved_apart(tmp_path, capsys):
