@@ -91,6 +91,20 @@ def test_what_a_browser_lacks_is_said(without, words, browser, tmp_path):
     tab.close()
 
 
+def test_a_page_that_is_not_whole_says_so(browser, tmp_path):
+    text = cradle_run().html()
+    data = text.index('"data":"') + len('"data":"')
+    for broken, words in (
+        (text[: len(text) // 2], "One moment. If this stays, the file is not whole"),
+        (text.replace('{"version"', '{"version', 1), "The data of this page are damaged: "),
+        (f"{text[:data]}@@@@{text[data + 4 :]}", "The data of this page are damaged: "),
+    ):
+        (tmp_path / "page.html").write_text(broken, encoding="utf-8")
+        tab = browser.open((tmp_path / "page.html").as_uri())
+        until(lambda tab=tab, words=words: tab.run("document.body.innerText").startswith(words))
+        tab.close()
+
+
 def test_without_an_encoder_videos_are_not_offered(browser, tmp_path):
     cradle_run().html(tmp_path / "page.html")
     page = (tmp_path / "page.html").as_uri()

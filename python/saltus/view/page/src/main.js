@@ -34,11 +34,17 @@ function answers(page) {
   };
 }
 
+async function stored() {
+  return unpackAll(JSON.parse(document.getElementById('saltus-data').textContent));
+}
+
 async function start() {
   const element = document.createElement('style');
   element.textContent = style;
   document.head.append(element);
-  const data = await unpackAll(JSON.parse(document.getElementById('saltus-data').textContent));
+  const data = await stored().catch((error) => {
+    throw new Error(`The data of this page are damaged: ${error.message}`, { cause: error });
+  });
   document.body.innerHTML = body;
   const page = new Page(data);
   offerToSave(page);
