@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 from scenes import beads
-from test_view_live import ask
+from test_view_wishes import ask
 
 import saltus
 from saltus.view.frames import Frame
