@@ -74,9 +74,18 @@ class Browser:
             tab.note(event["method"], event["params"])
 
     def open(
-        self, url: str, size: tuple[int, int] = (1100, 700), *, dark: bool = False, ratio: float = 1
+        self,
+        url: str,
+        size: tuple[int, int] = (1100, 700),
+        *,
+        dark: bool = False,
+        ratio: float = 1,
+        without: str = "",
     ) -> Tab:
-        """Open a page in a tab of its own, and wait until it is ready."""
+        """Open a page in a tab of its own, and wait until it is there.
+
+        `without` is JavaScript that takes something away from the browser before the page begins.
+        """
         target = self.ask("Target.createTarget", url="about:blank")["targetId"]
         session = self.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         tab = self.tabs[session] = Tab(self, session, target)
@@ -85,6 +94,8 @@ class Browser:
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         tab.ask("Emulation.setEmulatedMedia", features=[scheme])
         tab.resize(size, ratio)
+        if without:
+            tab.ask("Page.addScriptToEvaluateOnNewDocument", source=without)
         tab.ask("Page.navigate", url=url)
         until(lambda: tab.run("document.readyState") == "complete")
         return tab

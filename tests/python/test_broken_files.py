@@ -40,6 +40,15 @@ def dataset(name: str, value: object):
     return ruin
 
 
+def row(name: str, index: int, value: float):
+    """Return what writes a value in a row of an array."""
+
+    def ruin(file: h5py.File) -> None:
+        file[name][index] = value
+
+    return ruin
+
+
 def column(table: str, name: str, value: object):
     def ruin(file: h5py.File) -> None:
         rows = file[table][()]
@@ -85,6 +94,10 @@ RUINED = [
     (dataset("q", None), 'dataset "q" is not there'),
     (group("q"), 'dataset "q" is a group'),
     (dataset("t", np.zeros(0)), 'dataset "t" has no rows'),
+    (row("q", 3, np.nan), r'dataset "q" has in row 3 what is not finite: \[nan '),
+    (row("p", 2, np.inf), r'dataset "p" has in row 2 what is not finite: \[inf '),
+    (row("t", 1, np.nan), 'dataset "t" has in row 1 what is not finite: nan'),
+    (row("t", 4, 0.001), 'dataset "t" goes back in time after row 3'),
     (dataset("t", np.zeros((3, 3))), r'dataset "t" has shape \(3, 3\); it must be \(any\)'),
     (dataset("kinetic", np.array([b"x", b"y"])), 'dataset "kinetic" has shape'),
     (dataset("coordinate_names", 3.0), 'dataset "coordinate_names" is float64'),

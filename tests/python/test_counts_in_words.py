@@ -35,6 +35,18 @@ def test_models_and_outcomes():
     )
 
 
+def test_plans():
+    builder = saltus.ModelBuilder("cart").set_gravity((0, 0, 0))
+    builder.add_body("cart", saltus.Sphere(0.1), mass=2.0, joint="prismatic")
+    model = builder.add_motor("force", joint="cart").build()
+    cost = saltus.optimize.Quadratic(model, model.state(q=[1.0]), control=1.0, final_q=1.0)
+    plan = saltus.optimize.ilqr(model, model.state(), cost, np.zeros((5, 1)), h=0.1)
+    assert ", 1 iteration: converged" in repr(plan)  # the problem is linear
+    there = saltus.optimize.Reach(model, {"cart": 1.0})
+    shot = saltus.optimize.shoot(model, model.state(), 5, there, h=0.1)
+    assert ", 1 iteration: " in repr(shot)
+
+
 def test_errors():
     with pytest.raises(saltus.ModelError, match=r"^v has 1 entry; the model has 6 velocities$"):
         cradle().state(v=[0.0])

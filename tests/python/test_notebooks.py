@@ -52,9 +52,15 @@ PREDICTED = {
         "16 first impacts, greatest difference from theory 4e-05 s",
         "the same to the last bit: True",
     ],
+    "control": [
+        "greatest difference from theory 0.005 N",  # 12 / 50^2, of constants in place of a line
+        "misses by 0.1000 m, with feedback by 0.0000 m",
+        "misses: 1e+00, 4e-01, 2e-02, 6e-05, 4e-10, ",
+        "the bat meets the ball at 0.1447 s, at first at 0.1547 s",
+    ],
 }
-PAGES = {"cradle": 1, "robot": 2, "throw": 3, "impacts": 1, "own": 1, "many": 1}
-PLOTS = {"cradle": 2, "robot": 1, "throw": 1, "impacts": 0, "own": 1, "many": 1}
+PAGES = {"cradle": 1, "robot": 2, "throw": 3, "impacts": 1, "own": 1, "many": 1, "control": 1}
+PLOTS = {"cradle": 2, "robot": 1, "throw": 1, "impacts": 0, "own": 1, "many": 1, "control": 1}
 
 
 def test_each_notebook_has_its_predictions():

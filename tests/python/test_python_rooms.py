@@ -58,6 +58,7 @@ ORDER = {
         "sliders",
         "pull",
         "events",
+        "frames",
         "live",
     ],
     "runs": [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from browser import quiet, until
 
 import saltus
 from saltus.cli.main import main
@@ -19,6 +20,8 @@ def test_a_cradle_at_rest_is_started_and_its_page_plays(tmp_path, capsys, open_p
     tab = open_page_of(page)
     assert tab.run("saltus.page.clock.end") == 10.0
     assert tab.run("saltus.page.data.autoplay")
+    until(lambda: tab.run("saltus.time") > 0)
+    quiet(tab)
 
 
 def test_bodies_that_overlap_are_moved_apart(tmp_path, capsys):
@@ -60,6 +63,27 @@ def test_errors_are_one_line(arguments, words, tmp_path, monkeypatch, capsys):
     assert words in said
     assert len(said.splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_the_file_that_is_read_is_kept(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    file, run = tmp_path / "c.urdf", tmp_path / "run.h5"
+    file.write_text(saltus.scenes.cradle(2))
+    saltus.simulate(saltus.load_urdf(file), duration=0.1).save(run)
+    (tmp_path / "link.html").symlink_to(run)
+    before = file.read_bytes(), run.read_bytes()
+    for words in (
+        ["view", "c.urdf", "--html", str(file)],
+        ["view", "run.h5", "--html", "./run.h5"],
+        ["view", "run.h5", "--html", "link.html"],
+        ["simulate", "c.urdf", "--duration", "0.1", "--out", "c.urdf"],
+        ["simulate", "c.urdf", "--duration", "0.1", "--plot", "c.urdf"],
+    ):
+        assert main(words) == 2
+        said = capsys.readouterr().err
+        assert "is the file that is read; name another to be written" in said
+        assert len(said.splitlines()) == 1
+    assert (file.read_bytes(), run.read_bytes()) == before
 
 
 def test_what_a_file_draws_is_on_the_page(tmp_path, monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 from scenes import cradle_run
 
 import saltus
-from saltus.view.arrays import packed, unpacked
+from saltus.view.arrays import LONG, packed, unpacked
 from saltus.view.instants import RATE, instants_of
 from saltus.view.scene import scene_of_run
 
@@ -71,9 +71,10 @@ def test_motors_drive_the_steps_to_impacts_too():
         assert abs(model.gaps(q).phi[0]) < TOUCH
 
 
+@pytest.mark.parametrize("rows", [5, LONG // 12 + 1])  # in one piece, and where time counts
 @pytest.mark.parametrize("kind", ["f4", "f8", "i4"])
-def test_arrays_come_back_to_the_bit(kind):
-    numbers = np.random.default_rng(0).normal(size=(5, 3)) * 100
+def test_arrays_come_back_to_the_bit(kind, rows):
+    numbers = np.random.default_rng(0).normal(size=(rows, 3)) * 100
     numbers = numbers.astype({"f4": "f4", "f8": "f8", "i4": "i4"}[kind])
     again = unpacked(json.loads(json.dumps(packed(numbers, kind))))
     assert again.dtype == numbers.dtype

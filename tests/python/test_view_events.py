@@ -7,9 +7,10 @@ import json
 import numpy as np
 import pytest
 from scenes import beads
-from test_view_live import ask
+from test_view_wishes import ask
 
 import saltus
+from saltus.view.frames import Frame
 from saltus.view.live import Live
 
 
@@ -23,7 +24,26 @@ def dropped(shape: object, height: float, **contact: float) -> Live:
 
 def frame_of(live: Live) -> dict:
     live.tell()
-    return json.loads(live.frame[1])
+    return json.loads(live.frame.since(Frame(number=1)))  # of a page that saw no impact
+
+
+class Slow:
+    """A page whose connection takes each frame only after many steps; the third breaks it."""
+
+    def __init__(self, live: Live) -> None:
+        self.live, self.frames = live, []
+
+    def write(self, data: bytes) -> None:
+        self.frames.append(json.loads(data.removeprefix(b"data: ")))
+        if len(self.frames) == 4:
+            raise BrokenPipeError
+        if len(self.frames) == 3:
+            ask(self.live, do="reset")
+        for _ in range(60):
+            ask(self.live, do="step")
+
+    def flush(self) -> None:
+        pass
 
 
 def test_frames_tell_impulses_with_normals_as_a_run_does():
@@ -49,11 +69,30 @@ def test_frames_tell_impulses_with_normals_as_a_run_does():
     assert told["gap"]["phi"] == pytest.approx(0, abs=1e-12)
 
 
-def test_an_impact_is_told_until_slow_pages_have_it_and_forgotten_after_a_reset():
+def test_a_slow_page_misses_frames_but_no_impacts():
+    live = dropped(saltus.Sphere(0.1), 0.11, restitution=0.5, friction=0.0)
+    live.tell()
+    page = Slow(live)
+    live.stream(page)
+    first, second, third, after = (
+        [impact["number"] for impact in frame["impacts"]] for frame in page.frames
+    )
+    assert first == third == []  # it rests
+    assert second == after == list(range(1, len(second) + 1))
+    assert len(second) > 3
+    times = [impact["t"] for impact in page.frames[1]["impacts"]]
+    assert times[0] == pytest.approx(np.sqrt(2 * 0.01 / 9.81), abs=1e-6)
+    later = Slow(live)  # another page, that is opened now
+    later.write = lambda data: page.frames.append(json.loads(data[6:])) or 1 / 0
+    with pytest.raises(ZeroDivisionError):
+        live.stream(later)
+    assert [impact["number"] for impact in page.frames[-1]["impacts"]] == second[-1:]
+
+
+def test_a_reset_forgets_impacts_and_forces():
     live = dropped(saltus.Sphere(0.1), 0.11, restitution=0.5, friction=0.0)
     while not live.events.count:
         ask(live, do="step")
-    frame_of(live)
     assert frame_of(live)["impacts"] == frame_of(live)["impacts"] != []
     ask(live, do="reset")
     assert frame_of(live)["impacts"] == []

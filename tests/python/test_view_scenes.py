@@ -73,6 +73,51 @@ def test_dark_is_dark(open_page):
     assert tab.picture()[:20].mean() > 200
 
 
+@pytest.mark.parametrize(
+    ("without", "words"),
+    [
+        (
+            "HTMLCanvasElement.prototype.getContext = () => null",
+            "This browser cannot draw in 3-D (WebGL 2 is missing): ",
+        ),
+        ("delete window.DecompressionStream", "This page needs a browser of 2023 or newer: "),
+    ],
+)
+def test_what_a_browser_lacks_is_said(without, words, browser, tmp_path):
+    cradle_run().html(tmp_path / "page.html")
+    tab = browser.open((tmp_path / "page.html").as_uri(), without=without)
+    until(lambda: tab.run("document.body.innerText").startswith(words))
+    assert tab.run("document.querySelectorAll('canvas').length") == 0
+    tab.close()
+
+
+def test_a_page_that_is_not_whole_says_so(browser, tmp_path):
+    text = cradle_run().html()
+    data = text.index('"data":"') + len('"data":"')
+    for broken, words in (
+        (text[: len(text) // 2], "One moment. If this stays, the file is not whole"),
+        (text.replace('{"version"', '{"version', 1), "The data of this page are damaged: "),
+        (f"{text[:data]}@@@@{text[data + 4 :]}", "The data of this page are damaged: "),
+    ):
+        (tmp_path / "page.html").write_text(broken, encoding="utf-8")
+        tab = browser.open((tmp_path / "page.html").as_uri())
+        until(lambda tab=tab, words=words: tab.run("document.body.innerText").startswith(words))
+        tab.close()
+
+
+def test_without_an_encoder_videos_are_not_offered(browser, tmp_path):
+    cradle_run().html(tmp_path / "page.html")
+    page = (tmp_path / "page.html").as_uri()
+    tab = browser.open(page, without="delete window.VideoEncoder").ready()
+    button = "document.getElementById('save-video')"
+    assert tab.run(f"{button}.disabled")
+    assert tab.run(f"{button}.title") == "This browser has no video encoder."
+    words = tab.run("saltus.video({ rate: 30, slow: 1 }).then(() => '', (error) => error.message)")
+    assert words == "This browser has no video encoder (WebCodecs); Chromium has one."
+    quiet(tab)
+    tab.close()
+
+
 def test_shadows_are_drawn_where_they_are_asked_for(open_page):
     builder = saltus.ModelBuilder("ball").add_floor().set_default_contact(restitution=1, friction=0)
     builder.add_body("ball", saltus.Sphere(0.1), mass=1.0, X=saltus.Pose((0, 0, 0.3)))

@@ -28,14 +28,18 @@ SHAPES = {
     "hull": saltus.Convex([(0, 0, 0), (0.4, 0, 0), (0, 0.3, 0), (0, 0, 0.5), (0.2, 0.2, 0.2)]),
 }
 
-# Draws bodies in one plain colour, without light, shadows, arrows and grid.
+# Draws one body in one plain colour, without light, shadows, arrows and grid.
 PLAIN = """(() => {
   const { page } = saltus;
   page.ground.group.visible = page.arrows.group.visible = false;
-  for (const { mesh, kind } of page.items.meshes) {
+  for (const { mesh, items, kind } of page.items.meshes) {
     mesh.visible = kind === 'collision';
-    const plain = new mesh.material.constructor({ color: 0, emissive: 0xff00ff });
-    mesh.material = plain;
+    mesh.material = new mesh.material.constructor({ color: 0, emissive: 0xff00ff });
+    for (const item of items) {
+      item.whole ??= item.local.clone();
+      item.local.copy(item.whole);
+      if (item.name !== '%s') item.local.makeScale(0, 0, 0);
+    }
   }
 })()"""
 
@@ -61,19 +65,37 @@ def surface(shape: object, count: int = 4000) -> np.ndarray:
             return shape.vertices[np.argmax(d @ shape.vertices.T, axis=1)]
 
 
+POSE_OF_ALL = saltus.Pose.from_rpy(0.4, -0.7, 1.1, (1.0, 2.0, 3.0))
+
+
+@pytest.fixture(scope="module")
+def shapes_tab(browser, tmp_path_factory):
+    """Return a page that has all shapes in one place, and its run."""
+    builder = saltus.ModelBuilder("shapes").set_gravity((0, 0, 0))
+    for name, shape in SHAPES.items():
+        builder.add_body(name, shape, mass=1.0, joint="floating")
+    start = dict.fromkeys(SHAPES, POSE_OF_ALL)
+    run = saltus.simulate(builder.build().without_collisions(), q=start, duration=0.01)
+    path = tmp_path_factory.mktemp("shapes") / "shapes.html"
+    run.html(path)
+    tab = browser.open(path.as_uri(), (800, 560)).ready()
+    yield tab, run
+    quiet(tab)
+    tab.close()
+
+
 @pytest.mark.parametrize("name", SHAPES)
-def test_silhouettes_are_those_of_the_shapes(name, open_page):
-    builder = saltus.ModelBuilder(name).set_gravity((0, 0, 0))
-    builder.add_body("body", SHAPES[name], mass=1.0, joint="floating")
-    model = builder.build()
-    pose = saltus.Pose.from_rpy(0.4, -0.7, 1.1, (1.0, 2.0, 3.0))
-    run = saltus.simulate(model, q={"body": pose}, duration=0.01)
-    tab = open_page(run, (800, 560))
-    tab.run(PLAIN)
+def test_silhouettes_are_those_of_the_shapes(name, shapes_tab):
+    tab, run = shapes_tab
+    X = run.model.shape_poses(run.q[:1], name)[0]
+    points = surface(SHAPES[name]) @ X[:3, :3].T + X[:3, 3]
+    tab.run(PLAIN % name)
+    low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    box = "saltus.page.bounds.box"
+    tab.run(f"{box}.min.fromArray({low}), {box}.max.fromArray({high})")
+    tab.run("saltus.page.look('corner')")  # as if it were alone
     painted = np.argwhere(np.abs(tab.picture() - PAINT).max(axis=2) < 60)[:, ::-1] + 0.5
-    X = model.shape_poses(run.q[:1], 0)[0]
-    points = (surface(SHAPES[name]) @ X[:3, :3].T + X[:3, 3]).tolist()
-    true = np.array(tab.run(f"{points}.map((p) => saltus.project(p).slice(0, 2))"))
+    true = np.array(tab.run(f"{points.tolist()}.map((p) => saltus.project(p).slice(0, 2))"))
     # In every direction of the picture both reach equally far, to a pixel of the rim and the
     # facets of round shapes: 48 around, 0.2 % of the radius.
     size = np.ptp(true, axis=0).max()
@@ -84,27 +106,36 @@ def test_silhouettes_are_those_of_the_shapes(name, open_page):
         assert reach[0] == pytest.approx(reach[1], abs=1.5 + 0.005 * size)
 
 
-@pytest.mark.parametrize(
-    ("normal", "offset", "kind"),
-    [((0, 0, 1), -0.3, "floor"), ((0.5, 0, 0.8), 0.2, "floor"), ((-1, 0, 0.1), -0.9, "wall")],
-)
-def test_half_spaces_have_their_offset_and_tilt(normal, offset, kind, open_page):
-    builder = saltus.ModelBuilder("plane").add_half_space("plane", normal, offset)
+HALF_SPACES = {
+    "floors[0]": ((0, 0, 1), -0.3),
+    "floors[1]": ((0.5, 0, 0.8), 0.2),
+    "walls[0].face": ((-1, 0, 0.1), -0.9),
+}
+
+
+@pytest.mark.parametrize("shown", [tuple(HALF_SPACES), ("walls[0].face",)])
+def test_half_spaces_have_their_offset_and_tilt(shown, open_page):
+    builder = saltus.ModelBuilder("planes")
+    for name in shown:
+        builder.add_half_space(name, *HALF_SPACES[name])
     builder.add_body("b", saltus.Sphere(0.1), mass=1.0, X=saltus.Pose((0, 0, 1)))
     builder.set_default_contact(restitution=1.0, friction=0.0)
-    run = saltus.simulate(builder.build(), duration=0.1)
-    tab = open_page(run)
-    mesh = "floors[0]" if kind == "floor" else "walls[0].face"
-    assert tab.run("saltus.page.ground.floors.length") == 1  # below a wall there is the grid's
-    n, p = tab.run(f"""(() => {{
-      const mesh = saltus.page.ground.{mesh};
-      mesh.updateMatrixWorld();
-      const e = mesh.matrixWorld.elements;
-      return [e.slice(8, 11), e.slice(12, 15)];
-    }})()""")
-    unit = np.array(normal) / np.linalg.norm(normal)
-    np.testing.assert_allclose(n, unit, atol=POSE)
-    assert np.dot(p, normal) == pytest.approx(offset, abs=POSE)
+    tab = open_page(saltus.simulate(builder.build(), duration=0.1))
+    floors = sum(name.startswith("floors") for name in shown)
+    # Below a wall alone there is the floor of the grid.
+    assert tab.run("saltus.page.ground.floors.length") == max(floors, 1)
+    assert tab.run("saltus.page.ground.walls.length") == 1
+    for name in shown:
+        normal, offset = HALF_SPACES[name]
+        n, p = tab.run(f"""(() => {{
+          const mesh = saltus.page.ground.{name};
+          mesh.updateMatrixWorld();
+          const e = mesh.matrixWorld.elements;
+          return [e.slice(8, 11), e.slice(12, 15)];
+        }})()""")
+        unit = np.array(normal) / np.linalg.norm(normal)
+        np.testing.assert_allclose(n, unit, atol=POSE)
+        assert np.dot(p, normal) == pytest.approx(offset, abs=POSE)
     quiet(tab)
 
 
@@ -160,8 +191,43 @@ def test_a_model_without_shapes_is_drawn_by_its_joints(open_page):
     run = saltus.simulate(model, {"joint_0": 0.5}, duration=0.5)
     tab = open_page(run)
     assert "no shapes" in tab.run("document.getElementById('notices').textContent")
-    assert tab.run("saltus.page.items.all.filter((i) => i.kind === 'thread').length") == 3
+    # from each pivot to the next, and from the last to the middle of its link
+    threads = tab.run("saltus.page.items.all.filter((i) => i.kind === 'thread').length")
+    assert threads == 4
     assert tab.run("document.getElementById('show-frame').checked")
+    assert_seen(tab, run)
+    quiet(tab)
+
+
+def assert_seen(tab, run: saltus.Trajectory) -> None:
+    """Assert that the last body's centre of mass is in the picture and clear of its words."""
+    link = run.model.links[-1]
+    head, wide, high = tab.run(
+        "[document.getElementById('head').getBoundingClientRect().bottom,"
+        " saltus.page.stage.canvas.clientWidth, saltus.page.stage.canvas.clientHeight]"
+    )
+    for row in (0, -1):
+        tab.seek(run.t[row])
+        pose = run.model.pose(run.q[row], link.name)
+        for p in (pose.p, pose * link.inertia.c_J):
+            x, y, _ = tab.run(f"saltus.project({p.tolist()})")
+            assert 0 < x < wide
+            assert head < y < high
+
+
+def test_a_mass_without_a_shape_hangs_on_a_thread(open_page):
+    builder = saltus.ModelBuilder("pendulum").add_link("bob", saltus.BodyInertia(1, (0, 0, -3)))
+    builder.add_joint("swing", "revolute", parent="world", child="bob", axis=(0, 1, 0))
+    run = saltus.simulate(builder.build(), {"swing": 3.0}, duration=2.0)
+    tab = open_page(run)
+    assert_seen(tab, run)
+    tab.resize((360, 640))
+    tab.run("saltus.page.openPanel(false)")
+    tab.settle()
+    assert_seen(tab, run)
+    drawn = tab.picture()
+    tab.run("document.getElementById('show-thread').click()")
+    assert (np.abs(drawn - tab.picture()).max(axis=2) > 30).sum() > 100  # px of the thread
     quiet(tab)
 
 

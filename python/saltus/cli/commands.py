@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import textwrap
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -56,8 +57,16 @@ def cmake_dir(_: argparse.Namespace) -> int:
     return 0
 
 
+def keep(file: str, outputs: Iterable[str | None]) -> None:
+    """Raise ModelError where an output would replace the file that is read."""
+    for path in outputs:
+        if path and os.path.exists(path) and os.path.exists(file) and os.path.samefile(path, file):
+            raise saltus.ModelError(f"{path} is the file that is read; name another to be written")
+
+
 def simulate(chosen: argparse.Namespace) -> int:
     """Run a model, print its impacts and energy error, write what is asked for."""
+    keep(chosen.file, (chosen.out, chosen.plot, chosen.plot_impacts))
     if chosen.out is not None:  # before a long run, not after it
         check_target(chosen.out)
     for path in (chosen.plot, chosen.plot_impacts):

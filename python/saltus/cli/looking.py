@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 import saltus
-from saltus.cli.commands import INTERRUPTED, first_state, load
+from saltus.cli.commands import INTERRUPTED, first_state, keep, load
 from saltus.records.replace import check_target
 from saltus.view import serve
 from saltus.view.browser import find_chromium
@@ -70,6 +70,7 @@ def _give(chosen: argparse.Namespace, run: saltus.Trajectory) -> None:
 
 
 def _check_outputs(chosen: argparse.Namespace) -> None:
+    keep(chosen.file, (chosen.html, chosen.video))
     if chosen.html is not None:
         check_target(chosen.html)
     if chosen.video is not None:

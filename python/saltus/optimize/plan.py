@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from saltus._core import Model, ModelError, Smoothness, State
-from saltus.optimize.system import Array, Rollout, System, count_impacts
+from saltus.optimize.system import Array, Rollout, System, count_impacts, iterated
 from saltus.runs.moment import Moment
 from saltus.runs.simulate import simulate
 from saltus.runs.trajectory import Trajectory
@@ -143,5 +143,5 @@ class Plan:
     def __repr__(self) -> str:
         return (
             f"Plan({len(self.control)} steps of {self.h:g} s, cost {self.cost:.6g}, "
-            f"{len(self.costs) - 1} iterations: {self.message})"
+            f"{iterated(len(self.costs) - 1)}: {self.message})"
         )

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from saltus._core import Model, ModelError, Smoothness, State, StepError
 from saltus.optimize.iterate import check_numbers
 from saltus.optimize.reach import MissFunction, Problem, Shooting, to_unknowns
-from saltus.optimize.system import Array, Rollout, System, to_controls
+from saltus.optimize.system import Array, Rollout, System, iterated, to_controls
 from saltus.runs.progress import Progress, progress_bar
 from saltus.runs.simulate import simulate
 from saltus.runs.trajectory import Trajectory
@@ -65,7 +65,8 @@ class Shot:
         )
 
     def __repr__(self) -> str:
-        return f"Shot(miss {self.miss:.1e}, {len(self.misses) - 1} iterations: {self.message})"
+        many = iterated(len(self.misses) - 1)
+        return f"Shot(miss {self.miss:.1e}, {many}: {self.message})"
 
 
 def shoot(

@@ -148,6 +148,11 @@ def count_impacts(before: Mapping[str, int], report: StepReport) -> dict[str, in
     return after
 
 
+def iterated(count: int) -> str:
+    """Return a count of iterations in words."""
+    return "1 iteration" if count == 1 else f"{count} iterations"
+
+
 def ball_blocks(model: Model) -> list[slice]:
     """Return where in v the angular velocities of free and ball joints are."""
     blocks = []

@@ -170,6 +170,11 @@ def _arrays(file: Stored, n_q: int, n_v: int, pairs: int) -> dict[str, Any]:
         name: file.array(name, (rows, columns[name]) if name in columns else (rows,))
         for name in ARRAYS
     }
+    for name in ("t", *columns):
+        file.check_finite(name, arrays[name])
+    back = np.diff(arrays["t"]) < 0
+    if back.any():
+        file.fail('dataset "t"', f"goes back in time after row {int(np.argmax(back))}")
     impacts = arrays["impacts"] = file.table("impacts", IMPACT, {})
     nowhere = {"tangential": 0.0, "point": np.nan, "normal": np.nan}  # of older files
     impulses = arrays["impulses"] = file.table("impulses", IMPULSE, nowhere)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import stat
 from collections.abc import Iterator
 from pathlib import Path
@@ -41,7 +40,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     check_target(path)
     target = Path(os.path.realpath(path))
     # A name of its own: two that save to one path do not write into one file.
-    part = target.with_name(f".saltus-{secrets.token_hex(8)}.part")
+    part = target.with_name(f".saltus-{os.urandom(8).hex()}.part")
     os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     try:
         yield part

@@ -135,6 +135,13 @@ class Stored:
             rows[column] = found[column]
         return rows
 
+    def check_finite(self, name: str, values: npt.NDArray[np.float64]) -> None:
+        """Fail on a row that has what is no number."""
+        bad = ~np.isfinite(values.reshape(len(values), -1)).all(axis=1)
+        if bad.any():
+            row = int(np.argmax(bad))
+            self.fail(f'dataset "{name}"', f"has in row {row} what is not finite: {values[row]}")
+
     def check_indices(
         self, name: str, column: str, values: npt.NDArray[np.integer[Any]], least: int, count: int
     ) -> None:

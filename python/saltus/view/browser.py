@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from pathlib import Path
 
 from saltus._core import ModelError
@@ -38,6 +37,8 @@ def find_chromium() -> str:
     ModelError
         Where there is none, with how to install one.
     """
+    import shutil
+
     named = os.environ.get(VARIABLE)
     if named:
         found = shutil.which(named)

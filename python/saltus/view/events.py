@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-import time
+import json
 from typing import Any
 
 import numpy as np
 
-from saltus._core import Impact, Model, ModelError, Pose, StepReport, gap
+from saltus._core import Impact, Model, Pose, StepReport, gap
 from saltus.records.pairs import ShapePair, pair_name, pairs_of_model, shape_names
 from saltus.records.tables import Array
 
-RECENT = 0.25  # s on the wall that impacts are told again: a slow page misses frames, not impacts
-MOST_IMPACTS = 40  # that are told at a time
+MOST_IMPACTS = 40  # that are kept for pages which come late to them
 MOST_ARROWS = 200  # of an impact, and of forces
 
 
 class Events:
     """What steps report, as pages are told it.
+
+    Parameters
+    ----------
+    model : Model
+    q : numpy.ndarray, shape (n_q,)
+        At the start.
+    h : float
+        [s] the time step.
+    origin : numpy.ndarray, shape (3,)
+        [m] what places on the page are relative to.
 
     Attributes
     ----------
@@ -27,8 +36,8 @@ class Events:
         Which of them is told, at first 0.
     """
 
-    def __init__(self, model: Model, q: Array, h: float) -> None:
-        self.model, self.h = model, h
+    def __init__(self, model: Model, q: Array, h: float, origin: Array) -> None:
+        self.model, self.h, self.origin = model, h, origin
         self._shapes = model.shapes  # asked once: the model makes this list anew each time
         pairs = pairs_of_model(model)
         phi = [self._phi(q, pair) for pair in pairs]
@@ -43,32 +52,29 @@ class Events:
         """Begin anew, as after a reset."""
         self.beginning += 1
         self.count = 0  # of impacts
-        self._impacts: list[tuple[float, dict[str, Any]]] = []  # each with its time on the wall
+        self.impacts: tuple[tuple[int, str], ...] = ()  # the last: number, and JSON for pages
         self.forces: list[list[Any]] = []  # of the step just made
 
     def choose(self, pair: int) -> None:
-        """Tell the gap of another pair; raise ModelError where there is none of this number."""
-        if not 0 <= pair < len(self.pairs):
-            raise ModelError(f"gap: no pair {pair}; there are {len(self.pairs)}")
+        """Tell the gap of another pair, by its number."""
         self.chosen = pair
 
     def add(self, report: StepReport) -> None:
         """Take in what a step reports."""
-        now = time.monotonic()
-        self._impacts += [(now, self._told(impact)) for impact in report.impacts]
-        kept = [(then, each) for then, each in self._impacts if then > now - RECENT]
-        self._impacts = (kept or self._impacts[-1:])[-MOST_IMPACTS:]
+        if report.impacts:
+            fresh = (self._told(impact) for impact in report.impacts)
+            told = ((each["number"], json.dumps(each)) for each in fresh)
+            self.impacts = (*self.impacts, *told)[-MOST_IMPACTS:]
         self.forces = [
-            _arrow(c.pair, c.point, (c.impulse * c.normal + c.tangential) / self.h, c.normal)
+            self._arrow(c.pair, c.point, (c.impulse * c.normal + c.tangential) / self.h, c.normal)
             for c in report.contacts[:MOST_ARROWS]
         ]
 
     def told(self, q: Array) -> dict[str, Any]:
-        """Return what a frame tells at coordinates q; pages know impacts again by their numbers."""
+        """Return what a frame tells all pages alike at coordinates q."""
         phi = self._phi(q, self._pairs[self.chosen]) if self.pairs else None
         return {
             "beginning": self.beginning,
-            "impacts": [impact for _, impact in self._impacts],
             "forces": self.forces,
             "gap": {"pair": self.chosen, "phi": phi},
         }
@@ -83,7 +89,7 @@ class Events:
             "t": impact.t,
             "certificate": impact.certificate,
             "impulses": list(zip(impact.pairs, impact.lambdas.tolist(), strict=True))[:MOST_ARROWS],
-            "arrows": [_arrow(*row) for row in rows[:MOST_ARROWS]],
+            "arrows": [self._arrow(*row) for row in rows[:MOST_ARROWS]],
             "closed": sorted(closed - {-1}),  # numbers of pairs: their gaps are 0 at this instant
         }
 
@@ -94,6 +100,5 @@ class Events:
             ends += [self._shapes[i].shape, Pose(X[:3, 3], X[:3, :3])]
         return float(gap(*ends).phi)
 
-
-def _arrow(pair: str, point: Array, vector: Array, normal: Array) -> list[Any]:
-    return [pair, point.tolist(), vector.tolist(), normal.tolist()]
+    def _arrow(self, pair: str, point: Array, vector: Array, normal: Array) -> list[Any]:
+        return [pair, (point - self.origin).tolist(), vector.tolist(), normal.tolist()]

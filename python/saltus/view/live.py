@@ -14,6 +14,7 @@ import numpy as np
 
 from saltus._core import Model, ModelError, State, StepError, Stepper
 from saltus.view.events import Events
+from saltus.view.frames import Frame
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.parts import Parts
 from saltus.view.pull import Pull, force_of
@@ -43,7 +44,7 @@ class Live:
     def __init__(self, model: Model, state: State, *, h: float) -> None:
         self.model, self.start, self.state, self.h = model, state, state, h
         self.stepper = Stepper(model, h)
-        self.parts = Parts(model)
+        self.parts = Parts(model, np.asarray(state.q))
         self.scene = scene_of_model(model, self.parts, state, h)
         self.sliders = sliders_of(model, reach=max(1.0, _size(self.parts, state)))
         self.scene["sliders"] = [
@@ -51,7 +52,7 @@ class Live:
             for s in self.sliders
         ]
         self.scene["controls"] = controls_of(model)
-        self.events = Events(model, np.asarray(state.q), h)
+        self.events = Events(model, np.asarray(state.q), h, self.parts.origin)
         self.scene["gaps"]["pairs"] = self.events.pairs
         self.playing = True
         self.speed = 1.0
@@ -62,7 +63,7 @@ class Live:
         self.lock = threading.Lock()
         self.asking = threading.Event()
         self.news = threading.Condition()
-        self.frame = (0, b"")
+        self.frame = Frame()
         self.pages = 0
         self.last_page = -1.0  # when the last page went; -1: none came yet
         self.actions: dict[str, Callable[[dict[str, Any]], None]] = {
@@ -75,7 +76,7 @@ class Live:
             "control": self._control,
             "pull": self._pull,
             "release": lambda _: self._release(),
-            "gap": lambda asked: self.events.choose(int(asked["pair"])),
+            "gap": lambda asked: self.events.choose(_number(asked, "pair", len(self.events.pairs))),
         }
 
     def page(self) -> str:
@@ -125,23 +126,28 @@ class Live:
         with self.lock:
             text = self._frame()
             with self.news:  # within: an older frame must not come after a newer one
-                self.frame = (self.frame[0] + 1, text)
+                number, events = self.frame.number + 1, self.events
+                self.frame = Frame(number, text, events.beginning, events.impacts)
                 self.news.notify_all()
 
     def stream(self, out: BufferedIOBase) -> None:
-        """Write frames to a page until it is closed."""
+        """Write frames to a page until it is closed.
+
+        A slow page misses frames, not impacts: each page is told those that it does not know.
+        """
         with self.news:
             self.pages += 1
         try:
-            seen = -1
+            seen = Frame()
             while True:
                 with self.news:
-                    if self.frame[0] == seen:
+                    if self.frame.number == seen.number:
                         self.news.wait(QUIET)
-                    number, text = self.frame
-                out.write(b"data: " + text + b"\n\n" if number != seen else b":\n\n")
+                    frame = self.frame
+                is_new = frame.number != seen.number
+                out.write(b"data: " + frame.since(seen) + b"\n\n" if is_new else b":\n\n")
                 out.flush()
-                seen = number
+                seen = frame
         except OSError:
             pass  # the page is closed
         finally:
@@ -178,7 +184,7 @@ class Live:
             return
         self.events.add(self.stepper.report)
 
-    def _frame(self) -> bytes:
+    def _frame(self) -> str:
         q = np.asarray(self.state.q)
         poses = np.ascontiguousarray(self.parts.poses(q[np.newaxis])[0], "<f4")
         return json.dumps(
@@ -195,7 +201,7 @@ class Live:
                 "problem": self.problem,
                 "sent": time.time(),
             }
-        ).encode()
+        )
 
     def _play(self, playing: bool) -> None:
         self.playing = playing
@@ -217,7 +223,7 @@ class Live:
         self.speed = float(np.clip(value, *SPEEDS))
 
     def _set(self, asked: dict[str, Any]) -> None:
-        slider = self.sliders[int(asked["slider"])]
+        slider = self.sliders[_number(asked, "slider", len(self.sliders))]
         state = posture(self.model, self.state, slider, float(asked["value"]))
         Stepper(self.model, self.h).advance(state)  # refuses a posture in which bodies overlap
         self.state, self.problem = state, ""
@@ -227,14 +233,14 @@ class Live:
         value = float(asked["value"])
         if not np.isfinite(value):
             raise ModelError(f"control = {value:g}; it is a number")
-        self.control[int(asked["actuator"])] = value
+        self.control[_number(asked, "actuator", len(self.control))] = value
 
     def _pull(self, asked: dict[str, Any]) -> None:
-        link = self.parts.bodies[int(asked["body"])]
+        link = self.parts.bodies[_number(asked, "body", len(self.parts.bodies))]
         at, to = (np.array(asked[name], float) for name in ("at", "to"))
         if at.shape != (3,) or to.shape != (3,) or not np.isfinite([at, to]).all():
             raise ModelError("pull: two points of three numbers are to be given")
-        self.pull, self.pulled = Pull(link, at, to), self.model.links[link].name
+        self.pull, self.pulled = Pull(link, at, to + self.parts.origin), self.model.links[link].name
 
     def _release(self) -> None:
         self.pull = None
@@ -265,7 +271,15 @@ def serve(model: Model, state: State, *, h: float, opened: Callable[[str], None]
         live.run(live.is_left)
 
 
+def _number(asked: dict[str, Any], name: str, count: int) -> int:
+    """Return the number of a thing that the page named; raise ModelError where there is none."""
+    number = asked[name]
+    if not (isinstance(number, int) and 0 <= number < count):
+        raise ModelError(f"{asked['do']}: no {name} {number!r}; there are {count}")
+    return number
+
+
 def _size(parts: Parts, state: State) -> float:
     """Return how far bodies are from the origin [m]."""
-    at = parts.poses(np.asarray(state.q)[np.newaxis])[0, :, :3]
+    at = parts.origin + parts.poses(np.asarray(state.q)[np.newaxis])[0, :, :3]
     return float(np.linalg.norm(at, axis=1).max(initial=0.0))

@@ -66,6 +66,7 @@ def page_of(scene: Mapping[str, Any], *, policy: str = POLICY) -> str:
 </head>
 <body>
 <noscript>This page needs JavaScript.</noscript>
+<p>One moment. If this stays, the file is not whole, or its code was not let run.</p>
 <script type="application/json" id="saltus-data">{_in_script(scene)}</script>
 <script type="text/plain" id="saltus-code">{_code()}</script>
 <script>{LOADER}</script>

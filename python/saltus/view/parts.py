@@ -14,6 +14,7 @@ from saltus.view.shapes import Geometries, bounding_radius
 WORLD = -1  # the body that stands still
 ALL_BODIES = 400  # larger models have only those with shapes; their massless links are not told
 MOST_MATRICES = 100_000  # at once: 13 MB
+FAR = 1000.0  # sizes of the scene from the world's origin; further away single precision is seen
 TURNING = (JointType.revolute, JointType.continuous, JointType.spherical, JointType.helical)
 
 
@@ -22,16 +23,26 @@ class Parts:
 
     Links that fixed joints connect are one body; so the page has few numbers to store.
 
+    Parameters
+    ----------
+    model : Model
+    q : numpy.ndarray, shape (n_q,)
+        Coordinates at the start, by which the origin is chosen.
+
     Attributes
     ----------
+    origin : numpy.ndarray, shape (3,)
+        [m] in the world: what all places on the page are relative to. The page draws in single
+        precision, so far away it is amid the bodies; elsewhere it is 0.
     bodies : list of int
         A link of each body; its frame is the body's.
     body_of : list of int
         Body of each link; `WORLD` of those that stand still, None of those left out.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, q: Array) -> None:
         self.model = model
+        self.origin = np.zeros(3)
         self.geometries = Geometries()
         # Asked once: each time the model makes these lists anew.
         self.links, self.shapes, self.joints = model.links, model.shapes, model.joints
@@ -47,6 +58,16 @@ class Parts:
         self.bodies = moving if few else [i for i in moving if i in shaped]
         numbers = {link: number for number, link in enumerate(self.bodies)}
         self.body_of = [WORLD if o == WORLD else numbers.get(o) for o in owner]
+        self.origin = self._amid(self.poses(np.asarray(q)[np.newaxis])[0, :, :3])
+
+    def _amid(self, at: Array) -> Array:
+        """Return the middle of bodies at these places, where it is far away, else 0."""
+        if not len(at):
+            return np.zeros(3)
+        solid = (s.shape for s in self.shapes if not isinstance(s.shape, HalfSpace))
+        middle: Array = np.median(at, axis=0)
+        size = max(np.abs(at - middle).max(), *map(bounding_radius, solid), 0.0)
+        return middle if np.abs(middle).max() > FAR * size > 0 else np.zeros(3)
 
     def _owners(self) -> list[int]:
         """Return for each link the link whose frame moves it: the first of its rigid body."""
@@ -72,13 +93,14 @@ class Parts:
         return [find(i) for i in range(len(index))]
 
     def poses(self, q: Array) -> Array:
-        """Return position and quaternion x y z w of each body, shape (rows, bodies, 7)."""
+        """Return position from the origin and quaternion x y z w, shape (rows, bodies, 7)."""
         poses = np.empty((len(q), len(self.bodies), 7))
         rows = max(1, MOST_MATRICES // max(1, len(self.links)))
         for first in range(0, len(q), rows):
             part = self.model.all_poses(q[first : first + rows])[:, self.bodies]
             sevens = seven(part.reshape(-1, 4, 4))
             poses[first : first + rows] = sevens.reshape(len(part), -1, 7)
+        poses[:, :, :3] -= self.origin
         return poses
 
     def described(self) -> dict[str, Any]:
@@ -86,6 +108,7 @@ class Parts:
         names = [self.links[link].name for link in self.bodies]
         items = [*self._shapes(), *self._visuals()]
         return {
+            "origin": self.origin.tolist(),
             "bodies": names,
             "items": items,
             "geometries": self.geometries.stored,
@@ -94,10 +117,15 @@ class Parts:
         }
 
     def _in_body(self, link: int, X_WS: Array) -> tuple[int | None, Array]:
-        """Return the body of a link, and a pose that is fixed to it in the body's frame."""
+        """Return the body of a link, and a pose that is fixed to it in the body's frame.
+
+        Of what stands still it is the pose from the origin.
+        """
         body = self.body_of[link]
         if body is None or body == WORLD:
-            return body, X_WS
+            moved = X_WS.copy()
+            moved[:3, 3] -= self.origin
+            return body, moved
         return body, np.linalg.solve(self._links[self.bodies[body]], X_WS)
 
     def _shapes(self) -> list[dict[str, Any]]:
@@ -152,8 +180,9 @@ class Parts:
     def _threads(self) -> Array:
         """Return lines fixed to bodies, rows of body and two points in its frame, shape (n, 7).
 
-        They go from the pivot of a turning joint to the shapes that hang on it, and in links
-        without shapes on to the next joints: so that a pendulum and an arm can be seen.
+        They go from the pivot of a turning joint to the shapes that hang on it, and in bodies
+        without shapes on to the next joints, or to the centre of mass where there are none: so that
+        a pendulum and an arm can be seen.
         """
         rows: list[list[float]] = []
         shaped = set()
@@ -176,7 +205,22 @@ class Parts:
                 continue
             if np.linalg.norm(X_BJ[:3, 3]) > 1e-9:
                 rows.append([body, 0.0, 0.0, 0.0, *X_BJ[:3, 3]])
+        drawn = shaped | {int(row[0]) for row in rows}
+        rows += [[body, 0.0, 0.0, 0.0, *p] for body, p in self._masses() if body not in drawn]
         return np.array(rows, float).reshape(-1, 7)
+
+    def _masses(self) -> list[tuple[int, Array]]:
+        """Return the bodies that turn, and the middle of the mass of each away from its pivot."""
+        mass = np.zeros(len(self.bodies))
+        moment = np.zeros((len(self.bodies), 3))
+        for i, link in enumerate(self.links):
+            body, X_BL = self._in_body(i, self._links[i])
+            if body is not None and body != WORLD:
+                mass[body] += link.mass
+                moment[body] += link.mass * (X_BL[:3, :3] @ link.inertia.c_J + X_BL[:3, 3])
+        turning = [b for b in np.flatnonzero(mass) if self._turns(self.bodies[b])]
+        middles = [(int(b), moment[b] / mass[b]) for b in turning]
+        return [(b, p) for b, p in middles if np.linalg.norm(p) > 1e-9]
 
     def _turns(self, link: int) -> bool:
         """Whether the joint that carries a link turns it about the origin of its frame."""

@@ -10,7 +10,7 @@ import numpy as np
 from saltus._core import Model, State, __version__
 from saltus.records.pairs import gaps_over, named_pairs, pair_name, pairs_of_run
 from saltus.records.recording import Recording
-from saltus.records.tables import counted
+from saltus.records.tables import Array, counted
 from saltus.view.arrays import packed
 from saltus.view.instants import Instants, instants_of
 from saltus.view.parts import Parts, shapeless
@@ -40,7 +40,7 @@ def scene_of_run(run: Recording, *, pairs: Sequence[str] | None = None) -> dict[
         Where the run has no model, or on names of pairs that do not exist.
     """
     model = run.require_model()
-    parts = Parts(model)
+    parts = Parts(model, run.q[0])
     instants = instants_of(run)
     return {
         "version": __version__,
@@ -55,8 +55,8 @@ def scene_of_run(run: Recording, *, pairs: Sequence[str] | None = None) -> dict[
         "poses": packed(parts.poses(instants.q)),
         "kinetic": packed(instants.kinetic, "f8"),
         "potential": packed(instants.potential, "f8"),
-        **_impacts(run, instants),
-        "forces": _forces(run, instants),
+        **_impacts(run, instants, parts.origin),
+        "forces": _forces(run, instants, parts.origin),
         "gaps": _gaps(run, model, instants, pairs),
     }
 
@@ -132,7 +132,7 @@ def _notices(run: Recording, model: Model, instants: Instants) -> list[str]:
     return notices
 
 
-def _impacts(run: Recording, instants: Instants) -> dict[str, Any]:
+def _impacts(run: Recording, instants: Instants, origin: Array) -> dict[str, Any]:
     own = run.impulses
     numbers, pair = np.unique(own["pair"], return_inverse=True)
     vector = own["lambda"][:, None] * own["normal"] + own["tangential"]
@@ -148,14 +148,14 @@ def _impacts(run: Recording, instants: Instants) -> dict[str, Any]:
             "pairs": [run.pair_names[i] for i in numbers],
             "pair": packed(pair, "i4"),
             "lambda": packed(own["lambda"]),
-            "point": packed(own["point"]),
+            "point": packed(own["point"] - origin),
             "normal": packed(own["normal"]),
             "vector": packed(vector),
         },
     }
 
 
-def _forces(run: Recording, instants: Instants) -> dict[str, Any] | None:
+def _forces(run: Recording, instants: Instants, origin: Array) -> dict[str, Any] | None:
     """Return mean forces of the contacts that were held, at the rows that are shown."""
     if run.recorded_contacts is None:
         return None
@@ -172,7 +172,7 @@ def _forces(run: Recording, instants: Instants) -> dict[str, Any] | None:
         "first": packed(first, "i4"),
         "pairs": [run.pair_names[i] for i in numbers],
         "pair": packed(pair, "i4"),
-        "point": packed(own["point"]),
+        "point": packed(own["point"] - origin),
         "vector": packed(force),
     }
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 import threading
 from collections.abc import Callable, Mapping
 from io import BufferedIOBase
@@ -41,6 +40,8 @@ class PageServer:
         posts: Mapping[str, Post],
         streams: Mapping[str, Stream] | None = None,
     ) -> None:
+        import secrets  # late, as all that is needed for few runs
+
         self.page, self.posts, self.streams = page, posts, dict(streams or {})
         self.token = secrets.token_urlsafe(16)
         self._http = _http_server(self)
@@ -95,8 +96,10 @@ class PageServer:
         """Return what stands behind the token, None where it or the host is another."""
         if request.headers.get("Host") not in (f"127.0.0.1:{self.port}", f"localhost:{self.port}"):
             return None  # a name that somebody made point here
+        from secrets import compare_digest
+
         token, _, name = request.path.removeprefix("/").partition("/")
-        return name if secrets.compare_digest(token.encode(), self.token.encode()) else None
+        return name if compare_digest(token.encode(), self.token.encode()) else None
 
 
 def answer(request: BaseHTTPRequestHandler, status: int, body: bytes, kind: str = PLAIN) -> None:

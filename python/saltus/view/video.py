@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 import os
-import signal
-import subprocess
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from saltus._core import ModelError
 from saltus.records.recording import Recording
@@ -20,6 +18,9 @@ from saltus.view.browser import chromium_command, find_chromium
 from saltus.view.page import LIVE_POLICY, page_of
 from saltus.view.scene import scene_of_run
 from saltus.view.server import PageServer
+
+if TYPE_CHECKING:
+    import subprocess
 
 VIEWS = ("corner", "front", "side", "top")
 MOST_FRAMES = 200_000
@@ -137,6 +138,7 @@ class _Office:
 @contextmanager
 def _running(program: str, url: str) -> Iterator[subprocess.Popen[bytes]]:
     """Run a Chromium with a page; nothing of it is left after."""
+    import subprocess
     import tempfile
 
     with tempfile.TemporaryDirectory(prefix="saltus-", ignore_cleanup_errors=True) as folder:
@@ -154,6 +156,9 @@ def _running(program: str, url: str) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
+    import signal
+    import subprocess
+
     for how in (signal.SIGTERM, signal.SIGKILL):
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, how)

@@ -1,6 +1,7 @@
 // Arrows of impulses, of the forces of held contacts, and normals, at the instant they act.
 
 import * as THREE from 'three';
+import { sameInstant } from './clock.js';
 import { ARROWS } from './colours.js';
 import { rowAt } from './motion.js';
 
@@ -76,7 +77,7 @@ export class Arrows {
     const { t } = this.data.impacts;
     if (!t.length) return [];
     const found = [];
-    const exact = 1e-9 * Math.max(1, Math.abs(time));
+    const exact = sameInstant(time);
     for (let i = rowAt(t, time + exact); i >= 0; i--) {
       if (t[i] > time + exact) continue;
       if (t[i] < time - SEEN * speed - exact) break;

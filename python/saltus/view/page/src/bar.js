@@ -1,6 +1,6 @@
 // The bar below: play, pause, scrub, speed, impacts before and after.
 
-import { SPEEDS } from './clock.js';
+import { SPEEDS, sameInstant } from './clock.js';
 import { ICONS } from './icons.js';
 import { rowAt } from './motion.js';
 
@@ -39,7 +39,7 @@ export class Bar {
   jump(direction) {
     const { clock, data } = this.page;
     const { t } = data.impacts;
-    const own = 1e-9 * Math.max(1, Math.abs(clock.time));
+    const own = sameInstant(clock.time);
     const found =
       direction > 0
         ? t.findIndex((time) => time > clock.time + own)
@@ -105,7 +105,7 @@ export class Bar {
 // The last impact at or before a time; -1 if there is none.
 export function lastImpact(t, time) {
   if (!t.length) return -1;
-  const own = 1e-9 * Math.max(1, Math.abs(time));
+  const own = sameInstant(time);
   const i = rowAt(t, time + own);
   return t[i] <= time + own ? i : -1;
 }

@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { bodyMatrix, matrixOf } from './items.js';
 
 const ROWS = 200; // of the motion that are looked at
+const LEAST = 1e-9; // m; what is smaller is a point
 const RARE = 0.04; // part of the time that a body may be out of the picture, at either end
 
 // Returns { box, radius, body }: box of the scene [m], half of its diagonal, typical radius of a body.
@@ -18,14 +19,15 @@ export function boundsOf(data, motion) {
   if (box.isEmpty()) box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
   const radii = items.filter((item) => item.body >= 0).map((item) => reach(data, item));
   radii.sort((a, b) => a - b);
-  const half = Math.max(diagonal(box) / 2, 1e-3);
+  const half = diagonal(box) > LEAST ? diagonal(box) / 2 : 0.5;
   return { box, radius: half, body: radii.length ? radii[radii.length >> 1] : half / 8 };
 
-  // Of each item and each pivot: least and greatest coordinates over time, in order.
+  // Of each item, pivot and thread: least and greatest coordinates over time, in order.
   function tracksOf() {
     const track = () => ({ low: [[], [], []], high: [[], [], []] });
     const found = items.map(track);
     const pivots = Array.from({ length: motion.bodies }, track);
+    const threads = Array.from({ length: data.threads.length / 7 }, track);
     for (let k = 0; k < rows; k++) {
       motion.set(motion.start + ((motion.end - motion.start) * k) / Math.max(rows - 1, 1));
       items.forEach((item, i) => push(found[i], extent(data, item, motion.now)));
@@ -33,8 +35,9 @@ export function boundsOf(data, motion) {
         const p = new THREE.Vector3().fromArray(motion.now, 7 * body);
         push(pivot, new THREE.Box3(p, p));
       });
+      threadEnds(data, motion.now).forEach((p, i) => push(threads[i], new THREE.Box3(p, p)));
     }
-    const all = [...found, ...pivots];
+    const all = [...found, ...pivots, ...threads];
     for (const { low, high } of all) [...low, ...high].forEach((xs) => xs.sort((a, b) => a - b));
     return all;
   }
@@ -44,7 +47,17 @@ export function boundsOf(data, motion) {
 export function boxNow(data, poses) {
   const box = new THREE.Box3();
   for (const item of data.items) if (item.body >= 0) box.union(extent(data, item, poses));
+  threadEnds(data, poses).forEach((p) => box.expandByPoint(p));
   return box;
+}
+
+// Where threads end: without shapes they are what is seen.
+function threadEnds({ threads }, poses) {
+  const ends = [];
+  for (let k = 0; k < threads.length; k += 7) {
+    ends.push(new THREE.Vector3().fromArray(threads, k + 4).applyMatrix4(bodyMatrix(poses, threads[k])));
+  }
+  return ends;
 }
 
 // The box about an item.

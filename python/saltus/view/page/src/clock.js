@@ -2,6 +2,9 @@
 
 export const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 
+// s that two times of one instant may differ by: of impacts, and of rounding of large times.
+export const sameInstant = (time) => 1e-9 + 4e-16 * Math.abs(time);
+
 export class Clock {
   constructor(start, end) {
     this.start = start;

@@ -127,7 +127,8 @@ export class Ground {
         colour: { value: new THREE.Color() },
         width: { value: this.width },
         rim: { value: rim },
-        origin: { value: new THREE.Vector2(-foot.x, -foot.y) },
+        // Lines repeat: large coordinates would lose their digits on the graphics card.
+        origin: { value: new THREE.Vector2(-foot.x % (5 * this.width), -foot.y % (5 * this.width)) },
       },
     });
   }

@@ -29,11 +29,7 @@ class Live {
     this.pull = new Pull(page, (what) => this.wish(what));
     this.source = new EventSource('events');
     this.source.onmessage = ({ data }) => this.newest(JSON.parse(data));
-    this.source.onerror = () => {
-      page.say('The program that simulates this page has ended.');
-      this.source.close();
-      clearTimeout(page.silence);
-    };
+    this.source.onerror = () => this.end();
     window.addEventListener('pagehide', () => this.source.close());
   }
 
@@ -51,7 +47,7 @@ class Live {
     requestAnimationFrame(() => {
       const shown = this.waits;
       this.waits = null;
-      this.frame(shown);
+      if (this.source.readyState !== EventSource.CLOSED) this.frame(shown);
     });
   }
 
@@ -72,8 +68,19 @@ class Live {
       const answer = await fetch('do', { method: 'POST', body: JSON.stringify(what) });
       if (!answer.ok) this.page.say(await answer.text());
     } catch {
-      this.page.say('The program that simulates this page has ended.');
+      this.end();
     }
+  }
+
+  // The program has ended: what it showed last stays, and the page says so for good.
+  end() {
+    const { page } = this;
+    this.source.close();
+    page.say('The program that simulates this page has ended.', { lasting: true });
+    page.clock.playing = false;
+    page.bar.changed();
+    for (const id of ['play', 'single', 'reset']) $(id).disabled = true;
+    for (const { input } of [...this.inputs, ...this.controls]) input.disabled = true;
   }
 
   // Gives the bar and the clock to the program.

@@ -11,6 +11,8 @@ import body from './page.html';
 // What programs ask the page; tests do.
 function answers(page) {
   const shapes = page.items.all.filter((item) => item.kind === 'collision' && item.mesh);
+  const { origin } = page.data; // places on the page are relative to it, in answers they are not
+  const inWorld = (at) => at.map((x, k) => (k < 3 ? x + origin[k] : x));
   return {
     page,
     get time() {
@@ -24,19 +26,25 @@ function answers(page) {
       page.bar.place();
       page.panel.place();
     },
-    poses: () => shapes.map((item) => [item.name, page.items.poseOf(item, page.motion.now)]),
-    arrows: () => page.arrows.now,
-    project: (point) => page.project(point),
+    poses: () => shapes.map((item) => [item.name, inWorld(page.items.poseOf(item, page.motion.now))]),
+    arrows: () => page.arrows.now.map((arrow) => ({ ...arrow, point: inWorld(arrow.point) })),
+    project: (point) => page.project(point.map((x, k) => x - origin[k])),
     calls: () => page.stage.renderer.info.render.calls,
     video: (options) => makeVideo(page, options),
   };
+}
+
+async function stored() {
+  return unpackAll(JSON.parse(document.getElementById('saltus-data').textContent));
 }
 
 async function start() {
   const element = document.createElement('style');
   element.textContent = style;
   document.head.append(element);
-  const data = await unpackAll(JSON.parse(document.getElementById('saltus-data').textContent));
+  const data = await stored().catch((error) => {
+    throw new Error(`The data of this page are damaged: ${error.message}`, { cause: error });
+  });
   document.body.innerHTML = body;
   const page = new Page(data);
   offerToSave(page);

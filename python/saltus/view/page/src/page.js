@@ -117,7 +117,9 @@ export class Page {
   resize() {
     if (this.filming) return;
     this.stage.fit();
-    this.views.margin.top = Math.min(56, 0.15 * this.stage.canvas.clientHeight);
+    const tall = this.stage.canvas.clientHeight;
+    const most = this.data.notices.length ? 0.3 : 0.15; // of the picture; what is to be read stays free
+    this.views.margin.top = Math.min(Math.max($('head').offsetHeight + 10, 56), most * tall);
     // Where the page is narrow the legend would stand over bodies.
     this.views.margin.bottom = 8 + (window.innerWidth <= 720 ? $('legend').offsetHeight : 0);
     if (this.views.preset) this.look(this.views.preset);
@@ -181,10 +183,10 @@ export class Page {
     this.dirty = true;
   }
 
-  say(text) {
+  say(text, { lasting = false } = {}) {
     $('status').textContent = text;
     clearTimeout(this.silence);
-    this.silence = setTimeout(() => ($('status').textContent = ''), 4000);
+    this.silence = lasting ? null : setTimeout(() => ($('status').textContent = ''), 4000);
   }
 
   // Pixel of a point on the canvas, and whether it is before the camera.

@@ -90,11 +90,11 @@ export class Plot {
     pen.globalAlpha = 1;
     pen.textAlign = 'right';
     pen.textBaseline = 'middle';
-    for (const value of steps) pen.fillText(short(value), PAD.left - 5, this.y(value));
+    for (const value of steps) pen.fillText(label(value, steps), PAD.left - 5, this.y(value));
     pen.textAlign = 'center';
     pen.textBaseline = 'bottom';
     const times = ticks(this.from, this.to, 4);
-    for (const t of times) pen.fillText(short(t), this.x(t), h - 2);
+    for (const t of times) pen.fillText(label(t, times), this.x(t), h - 2);
     pen.textAlign = 'left';
     pen.fillText(this.unit, 2, h - 2);
   }
@@ -164,6 +164,14 @@ export function short(value) {
   const size = Math.abs(value);
   if (size >= 1e5 || size < 1e-3) return value.toExponential(0).replace('e+', 'e');
   return String(Number(value.toPrecision(4)));
+}
+
+// A label of one of several ticks, where four digits do not tell them apart by how far it is from
+// the first: "1e9", "+0.5".
+export function label(value, all) {
+  const apart = new Set(all.map(short)).size === all.length;
+  if (apart || value === all[0]) return short(value);
+  return `+${short(value - all[0])}`;
 }
 
 // Values of the last seconds, for a program that goes on: { x, and a list of each name }.
