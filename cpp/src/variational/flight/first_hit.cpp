@@ -11,6 +11,20 @@ namespace {
 /// [radius] Two places that are one.
 constexpr double same_point = 1e-3;
 
+/// The other place of two where an edge or a rim crosses a rim touches, or its hits are sought.
+bool is_other_watched(const ModelData& model, int crossing, const Node& node) {
+  using Place = RimCrossing::Place;
+  const Place place = std::get<RimCrossing>(node.pool[crossing].kind).place;
+  const bool is_first = place == Place::in || place == Place::left;
+  const int number = node.pool.number(crossing) + (is_first ? 1 : -1);
+  return !std::isinf(node.sunk_at(node.pool.slot_of(model, number)));
+}
+
+bool are_of_same_bodies(const Pair& x, const Pair& y) {
+  const int a = y.on_a.joint, b = y.on_b.joint;
+  return (x.on_a.joint == a && x.on_b.joint == b) || (x.on_a.joint == b && x.on_b.joint == a);
+}
+
 /// What was measured at the node says that the pair cannot close on the chord.
 bool is_certified(double distance, const Pair& pair, double floor, const Flight& f) {
   return distance - (f.broad.motion[pair.a] + f.broad.motion[pair.b]) > floor;
@@ -116,25 +130,24 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
   return false;
 }
 
-bool grazes_with_crossings(const Scene& scene, int rim, const Node& node, ArcWork& work) {
+bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& work) {
   const ModelData& model = scene.model;
   const Pair& pair = node.pool[rim];
   const auto* cylinder = std::get_if<Cylinder>(&pair.on_a.shape);
   if (!std::holds_alternative<Rim>(pair.kind) || cylinder == nullptr) return false;
   place_end(model, work.arc.q_end, work.scratch);
-  const Vec3 p_WA = pair_gap_at_end(model, pair, work.scratch).p_WA;
-  int crossings = 0;
-  bool is_there = false;
+  const Gap gap = pair_gap_at_end(model, pair, work.scratch);
+  const bool is_on_cap = gap.a.dim == 2;
   for (int i = 0; i < node.touching; ++i) {
-    const int slot = node.contacts[i].slot;
-    const Pair& other = node.pool[slot];
-    if (node.pool.solid(slot) != node.pool.solid(rim)) continue;
-    if (!std::holds_alternative<RimCrossing>(other.kind)) continue;
-    ++crossings;
+    const Pair& other = node.pool[node.contacts[i].slot];
+    if (!are_of_same_bodies(pair, other)) continue;
+    const bool crosses = std::holds_alternative<RimCrossing>(other.kind);
+    if (!crosses && !is_on_cap) continue;
     const Gap g = pair_gap_at_end(model, other, work.scratch);
-    is_there = is_there || (g.p_WA - p_WA).norm() < same_point * cylinder->radius;
+    const bool is_there = (g.p_WA - gap.p_WA).norm() < same_point * cylinder->radius;
+    if (is_there && (!crosses || is_other_watched(model, node.contacts[i].slot, node))) return true;
   }
-  return is_there && crossings >= 2;
+  return false;
 }
 
 }  // namespace saltus

@@ -15,9 +15,10 @@ std::optional<Hit> take_first(std::vector<Hit>& hits);
 /// in the same point, and that of the end only grazes.
 bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& work);
 
-/// The lowest point of a rim that lies on an edge or a rim, in two places that touch both: it goes
-/// from one to the other, and closes with them. Where one alone touches, the other is open and is
-/// not watched before the two are level; so the rim says when that is.
-bool grazes_with_crossings(const Scene& scene, int rim, const Node& node, ArcWork& work);
+/// A rim whose gap closes at the arc's end where other parts of the two bodies touch from the node
+/// on: within its cap, which a corner or a rim of the other is on; or on an edge or a rim, in one
+/// of the two places that its lowest point goes between. Where the other of these is not watched,
+/// as before the two are level, the rim says when it closes.
+bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& work);
 
 }  // namespace saltus
