@@ -10,8 +10,9 @@ PAGE = """\
 # Speed
 
 Without contact a step costs as much as one of MuJoCo or a part of it. Where bodies rest on each
-other a simulated second costs up to a few times as much, in a heap that falls many times: for many
-loose bodies whose motion need not be exact a soft engine is the better choice.
+other a simulated second costs up to a few times as much, next to nothing once all stand still, and
+many times as much in a heap that falls: for many loose bodies whose motion need not be exact a soft
+engine is the better choice.
 
 This page compares the speed of saltus with engines that solve the same equations of motion. The
 numbers come from one machine, those of each section from one run. The program that measures them
