@@ -166,20 +166,54 @@ def mark(example: Path) -> object:
     return pytest.param(example, id=example.stem, marks=marks)
 
 
+# Runs an example as it is, then draws the last run that it made. Arguments are the path of the
+# picture, the example, and its own.
+DRAWN = """
+import os, runpy, sys
+picture, *sys.argv = sys.argv[1:]
+sys.path[0] = os.path.dirname(sys.argv[0])
+names = runpy.run_path(sys.argv[0], run_name="__main__")
+import saltus
+runs = [each for each in names.values() if isinstance(each, saltus.Trajectory)]
+runs += [each[0] for each in names.values() if isinstance(each, saltus.BatchTrajectory)]
+runs += [each.run() for each in names.values() if type(each).__name__ == "Plan"]
+if runs:
+    figure = runs[-1].plot()
+    assert all(axes.lines or axes.collections for axes in figure.axes)
+    figure.savefig(picture)
+"""
+NUMBERS_ALONE = {  # no motion: they ask for derivatives, outcomes, forces or a pose
+    "derivative_of_an_impact",
+    "derivatives",
+    "drive_a_cradle",
+    "identify_cube",
+    "impulses_at_one_instant",
+    "quadruped",
+    "reach",
+    "which_outcome",
+}
+
+
 @pytest.mark.parametrize("example", [*map(mark, EXAMPLES)])
-def test_example_prints_what_it_predicts(example, tmp_path):
+def test_example_prints_what_it_predicts_and_makes_its_picture(example, tmp_path):
+    folder, picture = tmp_path / "empty", tmp_path / "picture.png"
+    folder.mkdir()
     done = subprocess.run(
-        [sys.executable, example, *ARGUMENTS.get(example.stem, [])],
+        [sys.executable, "-c", DRAWN, picture, example, *ARGUMENTS.get(example.stem, [])],
         capture_output=True,
         text=True,
         check=True,
-        cwd=tmp_path,
+        cwd=folder,
         env={**os.environ, "MPLBACKEND": "Agg"},
     )
     assert done.stderr == ""
     for line in PREDICTED[example.stem]:
         assert line in done.stdout
-    assert sorted(p.name for p in tmp_path.iterdir()) == WRITTEN.get(example.stem, [])
+    written = WRITTEN.get(example.stem, [])
+    assert sorted(p.name for p in folder.iterdir()) == written
+    pictures = [picture] if picture.exists() else [folder / name for name in written]
+    assert bool(pictures) != (example.stem in NUMBERS_ALONE)
+    assert all(each.stat().st_size > 10_000 for each in pictures), "an empty picture"
 
 
 def test_differences_of_the_partials_are_small(tmp_path):
