@@ -221,7 +221,7 @@ Gaps gaps_at(const Model& model, const Kinematics& kin) {
   if (static_cast<double>(rows) * (n_v + 2.0) * n_v > most_dense) {
     throw ModelError("gaps of " + std::to_string(rows) + " pairs with Hessians of " +
                      std::to_string(n_v) + " velocities take more than 1 GiB; " +
-                     "take pair(k) and pair_gap one by one");
+                     "take gap(...) of two shapes at their poses, one by one");
   }
   Gaps out;
   out.phi.resize(rows);
