@@ -104,7 +104,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
 
 
 def lowest_gap(model: saltus.Model, q: np.ndarray) -> float:
-    """Return the least gap [m] of whole shapes: of many boxes all parts' partials take gigabytes."""
+    """Return the least gap [m] of whole shapes: partials of all parts may take gigabytes."""
     shapes = model.shapes
     poses = [model.shape_poses(q[None], k)[0] for k in range(len(shapes))]
     placed = [

@@ -39,6 +39,11 @@ constexpr int max_iterations = 400;
 /// advance longer than this is certain: that is a hit too.
 constexpr double sideways = 1e-9;
 
+/// Of what is nearer than `touch` by then and comes nearer, no more is asked: it may be a hit,
+/// which the arc itself tells. A point that comes down slowly beside others that could do so fast,
+/// such as one of a rim that lies on an edge, would take all iterations to close.
+constexpr int patience = 40;
+
 /// Of a body that overlaps and departs nothing is promised but an end: this much at a time.
 constexpr double stride = 1.0 / 64;
 
@@ -143,6 +148,9 @@ ChordHit search(const Chord& chord, double floor) {
     if (!std::isfinite(g) || !std::isfinite(x.rate)) break;
     const bool touches = g <= rounding * bounds.length, departs = x.rate > rounding * bounds.mu;
     if (touches && (!departs || (edges && apart))) return {Outcome::hit, s};
+    if (k >= patience && g <= chord.pair.touch && x.rate < 0) {
+      return {Outcome::hit, std::fmin(s - std::fmax(g, 0) / x.rate, 1)};
+    }
     apart = apart || !touches;
     double d = certified_advance(chord, g, x, bounds, 1 - s);
     const bool overlaps = g < -rounding * bounds.length;
