@@ -27,8 +27,16 @@ DECODE = """(async () => {
     const sought = event('seeked');
     video.currentTime = (k + 0.5) / %d;
     await sought;
-    canvas.getContext('2d').drawImage(video, 0, 0);
-    frames.push(canvas.toDataURL('image/png').split(',')[1]);
+    // A busy browser may tell of the seek before it has the frame: all frames differ, so that one
+    // that is the last is asked for again.
+    let frame;
+    for (let asked = 0; asked < 40; asked++) {
+      canvas.getContext('2d').drawImage(video, 0, 0);
+      frame = canvas.toDataURL('image/png').split(',')[1];
+      if (frame !== frames.at(-1)) break;
+      await new Promise((done) => setTimeout(done, 50));
+    }
+    frames.push(frame);
   }
   return [video.duration, frames];
 })()"""
