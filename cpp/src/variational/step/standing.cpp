@@ -13,8 +13,8 @@ constexpr int steps_watched = 8;
 /// [rad] Rounding of a pose's rotation.
 constexpr double turn_rounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// A body that moves on by no more in all the steps that it is watched for is not moved any more
-/// by its contacts: it would take days to be seen, and friction holds it.
+/// What moves on by no more than this part of rounding in all the steps that it is watched for
+/// would take days to be seen: the velocity that friction leaves of rounding, for instance.
 constexpr double part_of_rounding = 1e-2;
 
 /// Writes standing.rounding. A stop has none that is a length: it is a number, near 1.
@@ -26,8 +26,8 @@ void find_held(const HalfKick& kick, const Node& node, Standing& standing) {
     const Pair& pair = node.pool[c.slot];
     const double size = pair.is_stop() ? turn_rounding : gap_rounding(c, pair);
     for (const ContactVector::Part& part : c.n.part) {
-      if (part.tree >= 0)
-        standing.rounding[part.tree] = std::max(standing.rounding[part.tree], size);
+      if (part.tree < 0) continue;
+      standing.rounding[part.tree] = std::max(standing.rounding[part.tree], size);
     }
   }
 }
@@ -108,9 +108,7 @@ Standing::Standing(const Scene& scene) {
   steps.resize(lists);
   stands.resize(lists);
   rounding.resize(lists);
-  places.resize(lists);
-  for (std::size_t list = 0; list < lists; ++list)
-    places[list] = places_of(tree, scene.trees.of[list]);
+  for (const std::vector<int>& each : scene.trees.of) places.push_back(places_of(tree, each));
   is_length.assign(static_cast<std::size_t>(tree.n_v), 0);
   for (int i = 0; i < tree.joints(); ++i) {
     if (!tree.joint[i].turns()) is_length[tree.drive[i].velocity] = 1;

@@ -97,9 +97,13 @@ void Stepper::Impl::step(State& state, const ForceInput& with) {
   fail_at_last(first, why);
 }
 
-// The last step changed nothing, and this one is the same.
+// The last step changed nothing, and this one is the same; nor has the report anything that is of
+// one step alone.
 bool Stepper::Impl::stands_on(const State& state) const {
-  return standing.steps_on && last_is_valid && input_is_same && !recorded && state == last;
+  const bool is_plain =
+      report.impacts.empty() && report.settlings.empty() && report.fallbacks.empty();
+  return standing.steps_on && is_plain && last_is_valid && input_is_same && !recorded &&
+         state == last;
 }
 
 void Stepper::Impl::stand(State& state) {
