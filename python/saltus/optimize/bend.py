@@ -54,7 +54,7 @@ class Curved:
             step = program.step(k, node.state, u, taus)
             back = program.landing(k, step.end)[1].T @ self.of_step
             return np.asarray(step.gaps_by.T @ self.of_gaps - step.by.T @ back)
-        whole, half = program.setting.planner.whole, program.n // 2  # no matrix is needed
+        whole, half = program.setting.planner.stepper, program.n // 2  # no matrix is needed
         end = whole.advance(node.state, control=u if len(u) else None)
         back = program.landing(k, end)[1].T @ self.of_step
         by = whole.vjp(-back[:half], -back[half:])

@@ -12,9 +12,8 @@ from saltus._core import Model, ModelError, Smoothness, State
 from saltus.optimize.iterate import check_numbers
 from saltus.optimize.reach import rate_of
 from saltus.optimize.shooting import by_newton
-from saltus.optimize.system import Array, Rollout, System, difference_slopes, to_controls
+from saltus.optimize.system import Array, Rollout, System, difference_slopes, to_rows
 from saltus.runs.progress import Progress, progress_bar
-from saltus.runs.simulate import simulate
 from saltus.runs.trajectory import Trajectory
 
 
@@ -72,17 +71,8 @@ class Orbit:
             As in `simulate`.
         """
         check_numbers(self.start, {"periods": periods})
-        system = self._system
-        return simulate(
-            system.model,
-            duration=periods * len(self.control) * system.h,
-            h=system.h,
-            state=self.start,
-            control=np.tile(self.control, (periods, 1)) if system.model.n_u > 0 else None,
-            record_contacts=record_contacts,
-            progress=False,
-            **system.options,  # type: ignore[arg-type]
-        )
+        control = np.tile(self.control, (periods, 1))
+        return self._system.run(self.start, len(control), control, record_contacts=record_contacts)
 
     def __repr__(self) -> str:
         largest = float(np.abs(self.multipliers).max())
@@ -224,11 +214,7 @@ def orbit(
     check_numbers(start, {"iterations": iterations, "tolerance": tolerance})
     if settle < 0:
         raise ModelError(f"settle is {settle}; it is a number of periods, at least 0")
-    if isinstance(controls, int):
-        check_numbers(start, {"controls": controls})
-        period = np.zeros((controls, model.n_u))
-    else:
-        period = to_controls(model, controls)
+    period = to_rows(model, controls)
     at = [model.coordinate(name) for name in free]
     kept = np.setdiff1d(np.arange(2 * model.n_v), [free_rate(model, i) for i in at])
     back = Return(system, settled(system, start, period, settle, at), period, kept)

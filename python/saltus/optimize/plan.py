@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from saltus._core import Model, ModelError, Smoothness, State
-from saltus.optimize.system import Array, Rollout, System, count_impacts, iterated
+from saltus.optimize.system import Array, Rollout, States, System, count_impacts, iterated
 from saltus.runs.moment import Moment
-from saltus.runs.simulate import simulate
 from saltus.runs.trajectory import Trajectory
 
 
@@ -53,7 +52,7 @@ class Policy:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Plan:
+class Plan(States):
     """What an optimiser found.
 
     Attributes
@@ -95,21 +94,6 @@ class Plan:
     _bounds: tuple[Array, Array]
 
     @property
-    def t(self) -> Array:
-        """[s] shape (N + 1,)."""
-        return np.array([x.t for x in self.states])
-
-    @property
-    def q(self) -> Array:
-        """[rad | m] shape (N + 1, n_q)."""
-        return np.array([x.q for x in self.states])
-
-    @property
-    def v(self) -> Array:
-        """[rad/s | m/s] shape (N + 1, n_v)."""
-        return np.array([self.model.velocity(x) for x in self.states])
-
-    @property
     def impacts(self) -> dict[str, int]:
         """How many impacts the motion has, by pair."""
         return dict(self._path.impacts[-1])
@@ -127,18 +111,12 @@ class Plan:
         start : State, optional
             Another start than the plan's: then the feedback acts.
         """
-        options = self._system.options
         if start is not None and not isinstance(start, State):
             raise ModelError(f"start is a {type(start).__name__}; Model.state makes a State")
-        return simulate(
-            self.model,
-            duration=len(self.control) * self.h,
-            h=self.h,
-            state=self.states[0] if start is None else start,
-            control=self.control if start is None else self.policy,
-            progress=False,
-            **options,  # type: ignore[arg-type]
-        )
+        steps = len(self.control)
+        if start is None:
+            return self._system.run(self.states[0], steps, self.control)
+        return self._system.run(start, steps, self.policy)
 
     def __repr__(self) -> str:
         return (

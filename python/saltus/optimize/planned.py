@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from saltus._core import ImpactLaw, Model, ModelError, State, StepError, StepOptions, Stepper
-from saltus.optimize.system import Array, ball_blocks, cross_matrix
+from saltus._core import ImpactLaw, Model, ModelError, State, StepError, StepOptions
+from saltus.optimize.system import Array, System, cross_matrix
 
 # An arc of this part of a step is taken for one of no duration: its end is the start, to rounding.
 SHORTEST_ARC = 1e-12
@@ -38,16 +38,10 @@ class PlannedStep:
     gaps_by: Array  # (impacts, 2 n_v + n_u + impacts)
 
 
-class Planner:
+class Planner(System):
     """Steps of a model that pass through everything but do the impacts that are planned.
 
-    Parameters
-    ----------
-    model : Model
-    h : float
-        [s]
-    options : mapping
-        Further options of `Stepper`.
+    Parameters are those of `System`.
 
     Raises
     ------
@@ -62,18 +56,15 @@ class Planner:
                 f"law is {law.name}; planned impacts are those of nodal_energy. ilqr and shoot "
                 "take the others"
             )
-        self.model, self.h = model, h
-        self.balls = ball_blocks(model)
-        self.options = {**options, "collisions": False, "record": True}
-        self.whole = Stepper(model, h, **self.options)  # type: ignore[arg-type]
+        super().__init__(model, h, {**options, "collisions": False})
 
     def arc(self, x: State, u: Array, tau: float) -> tuple[State, Array, Array, Array]:
         """Return the end of an arc without impact, and A, B and the derivative by tau."""
         if tau == self.h:
-            stepper = self.whole
+            stepper = self.stepper
         else:
             least = SHORTEST_ARC * self.h
-            stepper = Stepper(self.model, max(tau, least), **self.options)  # type: ignore[arg-type]
+            stepper = System(self.model, max(tau, least), self.options).stepper
         end = stepper.advance(x, control=u if len(u) else None)
         d = stepper.derivative()
         return end, d.A, d.B, d.h

@@ -11,9 +11,8 @@ import numpy.typing as npt
 from saltus._core import Model, ModelError, Smoothness, State, StepError
 from saltus.optimize.iterate import check_numbers
 from saltus.optimize.reach import MissFunction, Problem, Shooting, to_unknowns
-from saltus.optimize.system import Array, Rollout, System, iterated, to_controls
+from saltus.optimize.system import Array, Rollout, System, iterated, to_rows
 from saltus.runs.progress import Progress, progress_bar
-from saltus.runs.simulate import simulate
 from saltus.runs.trajectory import Trajectory
 
 
@@ -53,16 +52,7 @@ class Shot:
 
     def run(self) -> Trajectory:
         """Return the motion as a run, to plot, save and play."""
-        system = self._system
-        return simulate(
-            system.model,
-            duration=len(self.control) * system.h,
-            h=system.h,
-            state=self.start,
-            control=self.control if system.model.n_u > 0 else None,
-            progress=False,
-            **system.options,  # type: ignore[arg-type]
-        )
+        return self._system.run(self.start, len(self.control), self.control)
 
     def __repr__(self) -> str:
         many = iterated(len(self.misses) - 1)
@@ -136,11 +126,7 @@ def shoot(
     """
     system = System(model, h, options)
     check_numbers(start, {"iterations": iterations, "tolerance": tolerance})
-    if isinstance(controls, int):
-        check_numbers(start, {"controls": controls})
-        guess = np.zeros((controls, model.n_u))
-    else:
-        guess = to_controls(model, controls)
+    guess = to_rows(model, controls)
     unknowns = to_unknowns(model, len(guess), by_q, by_v, by_control)
     problem = Shooting(system, start, guess, unknowns, miss)
     if method == "least_squares":

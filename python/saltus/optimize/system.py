@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from saltus._core import JointType, Model, ModelError, Smoothness, State, Stepper, StepReport
+from saltus.runs.simulate import Control, simulate
+from saltus.runs.trajectory import Trajectory
 
 Array = npt.NDArray[np.float64]
 
@@ -50,6 +52,28 @@ class Slopes:
     smoothness: list[Smoothness]
 
 
+class States:
+    """What has `states` of a `model`, as arrays."""
+
+    model: Model
+    states: list[State]
+
+    @property
+    def t(self) -> Array:
+        """[s] shape (N + 1,)."""
+        return np.array([x.t for x in self.states])
+
+    @property
+    def q(self) -> Array:
+        """[rad | m] shape (N + 1, n_q)."""
+        return np.array([x.q for x in self.states])
+
+    @property
+    def v(self) -> Array:
+        """[rad/s | m/s] shape (N + 1, n_v)."""
+        return np.array([self.model.velocity(x) for x in self.states])
+
+
 class System:
     """A model with a stepper that records.
 
@@ -78,6 +102,21 @@ class System:
         self.stepper = Stepper(model, h, record=True, **options)  # type: ignore[arg-type]
         self.balls = ball_blocks(model)
         self.range = np.asarray(model.control_limits, dtype=float).reshape(-1, 2).T
+
+    def run(
+        self, start: State, steps: int, control: Control, *, record_contacts: bool = False
+    ) -> Trajectory:
+        """Return so many steps from a start as a run, to plot, save and play."""
+        return simulate(
+            self.model,
+            duration=steps * self.h,
+            h=self.h,
+            state=start,
+            control=control if self.model.n_u > 0 else None,
+            record_contacts=record_contacts,
+            progress=False,
+            **self.options,  # type: ignore[arg-type]
+        )
 
     def advance(self, state: State, u: Array) -> State:
         """Return the state h later."""
@@ -189,6 +228,15 @@ def difference_slopes(blocks: Sequence[slice], dq: Array) -> Array:
     for block in blocks:
         J[block, block] = turn_slopes(dq[block])
     return J
+
+
+def to_rows(model: Model, controls: npt.ArrayLike | int) -> Array:
+    """Return controls as an array (N, n_u), zeros for a number N of steps, or raise ModelError."""
+    if not isinstance(controls, int):
+        return to_controls(model, controls)
+    if not controls > 0:
+        raise ModelError(f"controls is {controls}; it is positive")
+    return np.zeros((controls, model.n_u))
 
 
 def to_controls(model: Model, controls: npt.ArrayLike) -> Array:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from saltus._core import Model, State
-from saltus.optimize.system import Array, System
-from saltus.runs.simulate import simulate
+from saltus.optimize.system import Array, States, System
 from saltus.runs.trajectory import Trajectory
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Transcription:
+class Transcription(States):
     """What `transcribe` found.
 
     Attributes
@@ -52,32 +49,9 @@ class Transcription:
     message: str
     _system: System
 
-    @property
-    def t(self) -> Array:
-        """[s] shape (N + 1,)."""
-        return np.array([x.t for x in self.states])
-
-    @property
-    def q(self) -> Array:
-        """[rad | m] shape (N + 1, n_q)."""
-        return np.array([x.q for x in self.states])
-
-    @property
-    def v(self) -> Array:
-        """[rad/s | m/s] shape (N + 1, n_v)."""
-        return np.array([self.model.velocity(x) for x in self.states])
-
     def run(self) -> Trajectory:
         """Return the motion that the controls make, as a run, to plot, save, play and keep to."""
-        return simulate(
-            self.model,
-            duration=len(self.control) * self.h,
-            h=self.h,
-            state=self.states[0],
-            control=self.control,
-            progress=False,
-            **self._system.options,  # type: ignore[arg-type]
-        )
+        return self._system.run(self.states[0], len(self.control), self.control)
 
     def __repr__(self) -> str:
         return (
