@@ -188,8 +188,7 @@ def _misfit(name: str, value: object, annotation: str) -> str:
     if any(_fits(value, kind) for kind in kinds):
         return ""
     start = f"{name} = {_show(value)} ({type(value).__name__})"
-    words = dict.fromkeys(word for kind in kinds if (word := _in_words(kind)))
-    text = f"{start}, which is no {' or '.join(words)}"
+    text = f"{start}, which is no {_all_in_words(annotation)}"
     is_array = len(kinds) == 1 and kinds[0].startswith("typing.Annotated[numpy")
     if is_array and (array := _array(value)) is not None:
         return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
@@ -247,6 +246,11 @@ TESTS: dict[str, Callable[[object], bool]] = {
 }
 
 
+def _all_in_words(annotation: str) -> str:
+    kinds = [kind.strip() for kind in _split(annotation, "|")]
+    return " or ".join(dict.fromkeys(word for kind in kinds if (word := _in_words(kind))))
+
+
 def _in_words(kind: str) -> str:
     if fixed := FIXED.search(kind):
         return f"sequence of {fixed[1]} numbers"
@@ -255,7 +259,8 @@ def _in_words(kind: str) -> str:
     if kind.startswith("collections.abc.Callable"):
         return "function"
     if kind.startswith("collections.abc.Sequence["):
-        return f"sequence of {_in_words(kind.partition('[')[2][:-1])}"
+        each = _all_in_words(kind.partition("[")[2][:-1])
+        return f"sequence of {'numbers' if each == 'number' else each}"
     name = kind.rpartition(".")[2]
     return "" if name == "SupportsIndex" else NUMBERS.get(name, name)
 

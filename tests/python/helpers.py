@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import _thread
+import builtins
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 
 import numpy as np
 
@@ -22,6 +25,29 @@ def run_cli(*arguments: object, **options: object) -> subprocess.CompletedProces
     return subprocess.run(
         command, capture_output=True, text=True, env=environment, timeout=120, **options
     )
+
+
+def interrupting(parts: list[float], at: int) -> Callable[[float], None]:
+    """Return a progress that notes its parts, and presses Ctrl-C at the one of that number."""
+
+    def tell(part: float) -> None:
+        parts.append(part)
+        if len(parts) == at:
+            _thread.interrupt_main()
+
+    return tell
+
+
+def hide_scipy(monkeypatch) -> None:
+    """Let no import find SciPy."""
+    real = builtins.__import__
+
+    def without(name, *rest):
+        if name.startswith("scipy"):
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
 
 
 def central_differences(function, x: np.ndarray, step: float = 1e-6) -> np.ndarray:

@@ -93,6 +93,10 @@ JOINT = {"name": "hinge", "parent": "world", "child": "arm"}
             "Sphere() is given radius = '" + 55 * "x" + " ... (str), which is no number",
         ),
         (
+            lambda: saltus.ModelBuilder("lift").set_prescribed("rise", 7),
+            "set_prescribed() is given times = 7 (int), which is no sequence of numbers or None",
+        ),
+        (
             lambda: saltus.Impact(
                 0, ["a", 1], [1, 2], contacts=1, law=saltus.ImpactLaw.nodal_energy, fallback=False
             ),

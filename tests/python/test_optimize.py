@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import _thread
 import math
 
 import numpy as np
 import pytest
 from scipy.optimize import minimize
 from tests.python.driven_models import acrobot, bouncer, cart, puck, spinner
+from tests.python.helpers import interrupting
 
 import saltus
 from saltus import ModelError, optimize
@@ -156,11 +156,7 @@ def test_ctrl_c_keeps_the_best_so_far(capsys):
     model = acrobot()
     cost = optimize.Quadratic(model, model.state({"shoulder": 1.0}), control=0.1, final_q=10.0)
     parts = []
-
-    def stop(part: float) -> None:
-        parts.append(part)
-        if len(parts) == 2:
-            _thread.interrupt_main()
+    stop = interrupting(parts, at=2)
 
     plan = optimize.ilqr(
         model, model.state(), cost, np.zeros((40, 1)), h=0.03, iterations=50, progress=stop

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import builtins
 import math
 
 import numpy as np
 import pytest
 from tests.python.driven_models import acrobot, bouncer, cart, spinner
+from tests.python.helpers import hide_scipy
 
 import saltus
 from saltus import ModelError, optimize
@@ -76,14 +76,7 @@ def test_scipy_finds_it_too_and_keeps_bounds():
 
 
 def test_without_scipy_the_error_says_what_to_do(monkeypatch):
-    real = builtins.__import__
-
-    def without(name, *rest):
-        if name.startswith("scipy"):
-            raise ImportError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    hide_scipy(monkeypatch)
     model = cart()
     goal = optimize.Reach(model, {"cart": 1.0})
     with pytest.raises(ImportError, match="pip install scipy"):

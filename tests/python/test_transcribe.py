@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import _thread
-import builtins
-
 import numpy as np
 import pytest
 from tests.python.driven_models import acrobot, bouncer, cart, cue, puck, spinner, walled
+from tests.python.helpers import hide_scipy, interrupting
 
 import saltus
 from saltus import ModelError, optimize
@@ -207,11 +205,7 @@ def test_ctrl_c_keeps_the_best_so_far(capsys):
     model = acrobot()
     cost = optimize.Quadratic(model, model.state({"shoulder": 1.0}), control=0.1, final_q=10.0)
     parts = []
-
-    def stop(part: float) -> None:
-        parts.append(part)
-        if len(parts) == 3:
-            _thread.interrupt_main()
+    stop = interrupting(parts, at=3)
 
     found = optimize.transcribe(
         model, model.state(), cost, np.zeros((10, 1)), h=0.1, iterations=60, progress=stop
@@ -255,14 +249,7 @@ def test_transcribe_says_what_is_wrong():
 
 
 def test_without_scipy_the_error_says_what_to_do(monkeypatch):
-    real = builtins.__import__
-
-    def without(name, *rest):
-        if name.startswith("scipy"):
-            raise ImportError(name)
-        return real(name, *rest)
-
-    monkeypatch.setattr(builtins, "__import__", without)
+    hide_scipy(monkeypatch)
     model = cart()
     cost = optimize.Quadratic(model, model.state(), control=1.0)
     with pytest.raises(ImportError, match="transcribe needs SciPy, or a solver of your own"):
