@@ -263,3 +263,11 @@ def test_ilqr_pushes_against_friction(height):
         smooth, state=start, duration=N * h, h=h, control=plan.control, progress=False
     )
     assert run.q[-1, 0] > 0.8
+
+
+def test_a_cost_of_controls_on_a_model_without_motors_is_an_error_in_words():
+    model = saltus.load_urdf(saltus.scenes.chain(2))
+    cost = optimize.Quadratic(model, model.state(), control=1.0, final_q=1.0)
+    for find in (optimize.ilqr, optimize.transcribe):
+        with pytest.raises(ModelError, match="the model has no actuators"):
+            find(model, model.state(), cost, np.zeros((3, 1)), h=0.01)

@@ -59,8 +59,8 @@ def weight_matrix(weight: npt.ArrayLike, n: int, name: str) -> Array:
         )
     if not np.allclose(W, W.T):
         raise ModelError(f"{name} is not symmetric")
-    least = float(np.linalg.eigvalsh(W)[0])
-    if least < -1e-12 * max(1.0, float(np.abs(W).max())):
+    least = float(np.linalg.eigvalsh(W).min(initial=0.0))  # of what is not there: 0
+    if least < -1e-12 * float(np.abs(W).max(initial=1.0)):
         raise ModelError(f"{name} is not positive: its least eigenvalue is {least:g}")
     return W
 
