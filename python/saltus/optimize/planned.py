@@ -14,6 +14,8 @@ from saltus.optimize.system import Array, System, cross_matrix
 SHORTEST_ARC = 1e-12
 # An impact within this part of a step is at its end; this part from an end another plan begins.
 EDGE, FAR = 1e-3, 0.05
+# Names that a message lists.
+MANY = 12
 
 
 @dataclass(frozen=True)
@@ -160,7 +162,9 @@ def plan_of(
     hits, taus, before = [], list[float](), start.t
     for name, t in impacts:
         if name not in names:
-            raise ModelError(f"no pair is named {name!r}; pairs are {', '.join(names)}")
+            more = ", ..." if len(names) > MANY else ""
+            known = f"pairs are {', '.join(names[:MANY])}{more}" if names else "the model has none"
+            raise ModelError(f"no pair is named {name!r}; {known}")
         friction = model.contact_properties(names.index(name)).friction
         if friction > 0:
             raise ModelError(
