@@ -188,11 +188,10 @@ def _misfit(name: str, value: object, annotation: str) -> str:
     if any(_fits(value, kind) for kind in kinds):
         return ""
     start = f"{name} = {_show(value)} ({type(value).__name__})"
-    text = f"{start}, which is no {_all_in_words(annotation)}"
     is_array = len(kinds) == 1 and kinds[0].startswith("typing.Annotated[numpy")
     if is_array and (array := _array(value)) is not None:
         return f"{name} of shape {array.shape}; it must have shape {_shape(kinds[0])}"
-    return text
+    return f"{start}, which is no {_all_in_words(annotation)}"
 
 
 def _fits(value: object, kind: str) -> bool:
@@ -200,7 +199,8 @@ def _fits(value: object, kind: str) -> bool:
     if test := TESTS.get(kind):
         return test(value)
     if kind.startswith("saltus._core."):
-        return isinstance(value, _class(kind))
+        known = getattr(_core, kind.rpartition(".")[2], object)
+        return isinstance(value, known if isinstance(known, type) else object)
     if kind.startswith("collections.abc.Callable"):
         return callable(value)
     if kind.startswith("collections.abc.Sequence["):
@@ -263,11 +263,6 @@ def _in_words(kind: str) -> str:
         return f"sequence of {'numbers' if each == 'number' else each}"
     name = kind.rpartition(".")[2]
     return "" if name == "SupportsIndex" else NUMBERS.get(name, name)
-
-
-def _class(kind: str) -> type:
-    found = getattr(_core, kind.rpartition(".")[2], object)
-    return found if isinstance(found, type) else object
 
 
 def _array(value: object) -> np.typing.NDArray[np.float64] | None:
