@@ -147,6 +147,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/arc/memory.cpp
   cpp/src/variational/arc/point_dampers.cpp
   cpp/src/variational/arc/row_blocks.cpp
+  cpp/src/variational/arc/row_rates.cpp
   cpp/src/variational/arc/rows.cpp
   cpp/src/variational/arc/solve.cpp
   cpp/src/variational/impact/certify.cpp

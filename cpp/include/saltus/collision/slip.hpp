@@ -46,6 +46,10 @@ inline Vec3 friction_point(const Gap& gap, const Pair& pair) {
 SALTUS_EXPORT void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pair,
                                        const Vec3& P_W, const Vec3& d_W, Eigen::Ref<VecX> row);
 
+/// How a moves against b at the velocity v: how it turns, and its velocity at P_W.
+SALTUS_EXPORT Screw relative_motion(const Tree& tree, const Kinematics& kin, const Pair& pair,
+                                    const Vec3& P_W, const VecRef& v);
+
 /// What a change of the configuration makes of the rows T (tangents(n, axis), at contact_point)
 /// where the velocity v stays: adds `factor` times the derivatives of T v by the velocities that
 /// move one against the other to `c0`, `c1` (n_v). What moves both turns the tangents in their

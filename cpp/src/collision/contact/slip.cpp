@@ -1,5 +1,6 @@
 #include "saltus/collision/slip.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "saltus/collision/gap_motion.hpp"
@@ -12,29 +13,58 @@ void add(double factor, const Screw& screw, Screw& sum) {
   sum.xi += factor * screw.xi;
 }
 
-/// A contact whose bodies move: what the joints do together, at P.
+double rate_of(const Tree& tree, const ChainJoint& k, const VecRef& v) {
+  const Drive& drive = tree.drive[k.joint];
+  return k.sign * drive.multiplier * v[drive.velocity];
+}
+
+/// What a number is of a screw at P: w . screw.w + xi . screw.xi.
+struct OfScrew {
+  Vec3 w, xi;
+};
+
+double dot(const OfScrew& x, const Screw& screw) { return x.w.dot(screw.w) + x.xi.dot(screw.xi); }
+
+/// A contact whose bodies move.
 struct Slipping {
   const Gap& gap;
+  GapMotion motion;
   Tangents t;
   int axis;
   Vec3 P;
-  Eigen::Matrix<double, 3, 6> n_t, P_t;  ///< what a twist of a makes of n and P
-  Screw all;
+  Screw all;  ///< what the joints do together, at P
 };
 
-/// By joint j: of t0.U and t1.U.
-/// @param below what the joints below j do, those of its own ball aside
-Eigen::Vector2d slip_change(const Slipping& s, const Screw& j, int sign, const Screw& below) {
-  Vec6 t;
-  t << sign * j.w, sign * (j.xi + j.w.cross(s.gap.center_W - s.P));
-  Vec3 dn = s.n_t * t, dP = s.P_t * t;
-  if (sign < 0) {  // b moves, and all with it
-    dn += j.w.cross(s.gap.n_W);
-    dP += j.xi;
-  }
-  const Tangents d = turned(s.t, s.gap.n_W, s.axis, dn);
-  const Vec3 turn = s.all.w.cross(dP) + j.w.cross(below.xi) - below.w.cross(j.xi);
-  return {d.t0.dot(s.all.xi) + s.t.t0.dot(turn), d.t1.dot(s.all.xi) + s.t.t1.dot(turn)};
+/// What (W x P').t + t'.U is of dP and dn: dn.of_n + dP.of_P.
+struct OfMotion {
+  Vec3 of_n, of_P;
+};
+
+/// By the normal that t0, t1 are tangents of, `turned` read backwards.
+std::array<OfMotion, 2> of_motion(const Slipping& s) {
+  const Vec3& n = s.gap.n_W;
+  const Vec3& x = s.all.xi;
+  const double size = (Vec3::Unit(s.axis) - n[s.axis] * n).norm();
+  const auto of_t1 = [&](const Vec3& along) -> Vec3 {
+    const Vec3 y = (along - s.t.t1 * s.t.t1.dot(along)) / size;
+    return -y.dot(n) * Vec3::Unit(s.axis) - n[s.axis] * y;
+  };
+  return {OfMotion{of_t1(n.cross(x)) + x.cross(s.t.t1), s.t.t0.cross(s.all.w)},
+          OfMotion{of_t1(x), s.t.t1.cross(s.all.w)}};
+}
+
+/// Of what a joint that moves a (sign 1), or b and all with it (-1), does by itself.
+OfScrew of_joint(const Slipping& s, const OfMotion& of, int sign) {
+  const Vec6 by = s.motion.n.transpose() * of.of_n +
+                  (s.motion.p_WA + s.motion.p_WB).transpose() * (of.of_P / 2);
+  const Vec3 xi = by.tail<3>(), w = by.head<3>() + (s.gap.center_W - s.P).cross(xi);
+  if (sign > 0) return {w, xi};
+  return {s.gap.n_W.cross(of.of_n) - w, of.of_P - xi};
+}
+
+/// By joint j: of t.U, with what the joints below j do, those of its own ball aside.
+double slip_change(const Vec3& t, const OfScrew& of, const Screw& j, const Screw& below) {
+  return dot(of, j) + j.w.dot(below.xi.cross(t)) - j.xi.dot(t.cross(below.w));
 }
 
 }  // namespace
@@ -77,20 +107,27 @@ void add_motion_gradient(const Tree& tree, const Kinematics& kin, const Pair& pa
   }
 }
 
+Screw relative_motion(const Tree& tree, const Kinematics& kin, const Pair& pair, const Vec3& P_W,
+                      const VecRef& v) {
+  Screw sum;
+  for (const ChainJoint& k : pair.chain) {
+    add(rate_of(tree, k, v), screw_at(tree, kin, k.joint, P_W), sum);
+  }
+  return sum;
+}
+
 void add_slip_change(const Tree& tree, const Kinematics& kin, const Pair& pair, const Gap& gap,
                      int axis, const VecRef& v, double factor, Eigen::Ref<VecX> c0,
                      Eigen::Ref<VecX> c1) {
-  const GapMotion motion = gap_motion(gap);
-  Slipping s{gap,      tangents(gap.n_W, axis),         axis, contact_point(gap),
-             motion.n, (motion.p_WA + motion.p_WB) / 2, {}};
-  const auto rate = [&](const ChainJoint& k) {
-    const Drive& drive = tree.drive[k.joint];
-    return k.sign * drive.multiplier * v[drive.velocity];
-  };
-  for (const ChainJoint& k : pair.chain) add(rate(k), screw_at(tree, kin, k.joint, s.P), s.all);
+  const Vec3 P = contact_point(gap);
+  const Screw all = relative_motion(tree, kin, pair, P, v);
+  const Slipping s{gap, gap_motion(gap), tangents(gap.n_W, axis), axis, P, all};
+  const std::array<OfMotion, 2> of = of_motion(s);
   const int count = static_cast<int>(pair.chain.size());
   // The chain goes up from b and then down to a: those below j are before it, and behind it.
   const auto walk = [&](int sign, int from, int step) {
+    if (from < 0 || from >= count || pair.chain[from].sign != sign) return;
+    const OfScrew of_t0 = of_joint(s, of[0], sign), of_t1 = of_joint(s, of[1], sign);
     Screw below, ball;  // of the ball that j may be a part of, those below it
     for (int i = from; i >= 0 && i < count && pair.chain[i].sign == sign; i += step) {
       const ChainJoint& joint = pair.chain[i];
@@ -103,10 +140,10 @@ void add_slip_change(const Tree& tree, const Kinematics& kin, const Pair& pair, 
       }
       const Screw j = screw_at(tree, kin, joint.joint, s.P);
       const Drive& drive = tree.drive[joint.joint];
-      const Eigen::Vector2d change = factor * drive.multiplier * slip_change(s, j, sign, below);
-      c0[drive.velocity] += change[0];
-      c1[drive.velocity] += change[1];
-      add(rate(joint), j, ball);
+      const double part = factor * drive.multiplier;
+      c0[drive.velocity] += part * slip_change(s.t.t0, of_t0, j, below);
+      c1[drive.velocity] += part * slip_change(s.t.t1, of_t1, j, below);
+      add(rate_of(tree, joint, v), j, ball);
     }
   };
   walk(-1, 0, 1);

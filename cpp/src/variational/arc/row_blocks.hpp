@@ -17,9 +17,6 @@ namespace saltus {
 /// @return how far arc.v is from the arc's equation
 double set_row_residual(const Scene& scene, const Node& node, ArcWork& work);
 
-/// Writes the rates u of the active rows at arc.v. Needs set_row_residual.
-void set_row_rates(const Scene& scene, const Node& node, ArcWork& work);
-
 /// One Newton step of arc.v, with the impulses as they are, and the rates u after it.
 /// @return false where there is no number
 bool step_row_rates(const Scene& scene, const Node& node, ArcWork& work);

@@ -107,7 +107,6 @@ Rows::Rows(const Scene& scene) : neighbours(scene) {
   }
   for (VecX* x : {&momentum, &size, &dense, &column}) x->setZero(scene.model.tree.n_v);
   for (VecX& x : change) x.setZero(scene.model.tree.n_v);
-  turn.value.reserve(2 * static_cast<std::size_t>(scene.trees.most));
 }
 
 bool is_still(const Scene& scene, const Contact& c, const Row& row, const Arc& arc) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "variational/arc/row_blocks.hpp"
+#include "variational/arc/row_rates.hpp"
 
 namespace saltus {
 namespace {
@@ -118,7 +119,7 @@ bool solve_held(const Scene& scene, double tau, const Node& node, ArcWork& work)
     arc.iterations = round;
     set_row_residual(scene, node, work);
     if (round > 0 && !is_solved) {  // else rates are not known yet, or are those of v
-      set_row_rates(scene, node, work);
+      look_at_rates(scene, node, work);
       law = lawlessness(rows.W, rows.u, rows.p);
     }
     const Lawlessness now{std::max(arc.residual, law.residual), std::max(arc.residual, law.excess)};

@@ -174,7 +174,8 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       if (!changes && !knows_hits) find_hits(scene, node, f);
       changes = changes || rest_soft_hits(scene, node, f);
       work.rough = changes ? rough_look : 0;
-      if (changes || work.is_rough) {
+      // a look is enough of an arc that will be shortened, too
+      if (changes || (work.is_rough && f.hits.empty())) {
         knows_hits = false;
         continue;
       }

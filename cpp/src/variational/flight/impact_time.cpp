@@ -126,6 +126,13 @@ bool has_smooth_path(const Pair& pair, const ArcWork& work) {
   });
 }
 
+bool solve_roughly(const Scene& scene, double tau, double rough, const Node& node, ArcWork& work) {
+  work.rough = rough;
+  const bool is_solved = solve(scene, tau, node, work);
+  work.rough = 0;
+  return is_solved;
+}
+
 /// Of an arc that contacts hold, whose gap is closed at its end, b.hi, with f.start_v there.
 /// @return false where it comes to no end: the arc is that of before
 bool refine_on_path(const Scene& scene, const Pair& pair, Bracket b, const Node& node, Flight& f) {
@@ -139,7 +146,12 @@ bool refine_on_path(const Scene& scene, const Pair& pair, Bracket b, const Node&
   for (int k = 0; k < most_arcs; ++k) {
     const double tau = root_on_path(scene, pair, b, node, f);
     f.path.velocity(tau, f.work.arc.v);
-    if (!solve(scene, tau, node, f.work)) break;
+    // the path through the first is not known well yet: a look is enough
+    if (!solve_roughly(scene, tau, k == 0 ? rough_look : 0, node, f.work)) break;
+    if (f.work.is_rough) {
+      f.path.add(tau, f.work.arc.v);
+      continue;
+    }
     const double phi = phi_at_end(scene, pair, f.work);
     if (std::abs(phi) <= 1e-3 * pair.touch) return true;
     (phi > 0 ? b.lo : b.hi) = tau;
@@ -209,10 +221,7 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
   // sooner: as the gap there says, or half of that
   double lo = back / 2;
   for (int k = 0;; ++k) {
-    f.work.rough = rough_look;
-    const bool is_solved = solve(scene, lo, node, f.work);
-    f.work.rough = 0;
-    if (!is_solved) return ImpactTime::not_converged;
+    if (!solve_roughly(scene, lo, rough_look, node, f.work)) return ImpactTime::not_converged;
     const double phi = phi_at_end(scene, pair, f.work);
     if (phi > pair.touch) break;
     if (k == 40) return ImpactTime::at_rest;

@@ -5,6 +5,11 @@
 namespace saltus {
 namespace {
 
+/// Room for so many numbers, whatever they are: they are written before they are read.
+void grow(std::size_t size, std::vector<double>& x) {
+  if (x.size() < size) x.resize(size);
+}
+
 constexpr double dependent = 1e-10;  ///< part of a rate's own W that does not follow from others
 
 }  // namespace
@@ -45,7 +50,7 @@ void PileIsland::set_sizes() {
   for (auto* each : {&s_.first, &s_.last}) each->resize(k);
   s_.spans.assign(k, {});
   for (auto* each : {&s_.u, &s_.p, &s_.q, &s_.base, &s_.trial}) each->resize(k);
-  for (auto* each : {&s_.W, &s_.L, &s_.K}) each->resize(9 * k * k);
+  for (auto* each : {&s_.W, &s_.L, &s_.K}) grow(9 * k * k, *each);
   s_.pivot.clear();
   for (int i = 0; i < k_; ++i) {
     s_.place[contact(i)] = i;
@@ -59,7 +64,7 @@ void PileIsland::set_sizes() {
 
 /// W by rows, scaled.
 void PileIsland::set_W() {
-  std::fill(s_.W.begin(), s_.W.end(), 0.0);
+  std::fill_n(s_.W.begin(), stride_ * stride_, 0.0);
   for (int by = 0; by < k_; ++by) {
     const int c = contact(by);
     for (int e = W_.start[c]; e < W_.start[c + 1]; ++e) {
@@ -112,9 +117,10 @@ void PileIsland::factorize() {
     set_W();
     for (int i = 0; i < k_; ++i) {
       s_.first[i] = r_;
-      for (int rate = 0; rate < 3; ++rate) {
-        row_of_L(3 * i + rate).setZero();
-        row_of_K(3 * i + rate).setZero();
+      for (int rate = 0; rate < 3; ++rate) {  // columns that later rates of the contact may add
+        const int most = std::min(3, stride_ - r_);
+        row_of_L(3 * i + rate).segment(r_, most).setZero();
+        row_of_K(3 * i + rate).segment(r_, most).setZero();
       }
       for (int rate = 0; rate < 3; ++rate) add_rate(i, rate);
       s_.last[i] = r_;
@@ -123,7 +129,7 @@ void PileIsland::factorize() {
   }
   const auto r = static_cast<std::size_t>(r_);
   for (auto* each : {&s_.z, &s_.z_new, &s_.dz, &s_.F, &s_.F_new}) each->resize(r);
-  s_.H.resize(r * r);
+  grow(r * r, s_.H);
   s_.DL.resize(3 * r);
   set_ends();
 }

@@ -8,7 +8,7 @@ namespace saltus {
 
 /// H = 1 + rho K^T P' L at s.trial.
 void PileIsland::set_slope(double rho) {
-  std::fill(s_.H.begin(), s_.H.end(), 0.0);
+  std::fill_n(s_.H.begin(), static_cast<std::ptrdiff_t>(r_) * r_, 0.0);
   for (int c = 0; c < r_; ++c) row_of_H(c)[c] = 1;
   for (int i = 0; i < k_; ++i) {
     Mat3 D;
