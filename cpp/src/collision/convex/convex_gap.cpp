@@ -51,13 +51,13 @@ void offer_face(const Vec3& n, bool of_a, Search& search) {
   search.offer(x);
 }
 
-void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, Search& search) {
+void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, double turn, Search& search) {
   for (int k = 0; k < b.faces && !search.done; ++k) offer_face(b.normals[k], false, search);
   for (int k = 0; k < a.faces && !search.done; ++k) offer_face(-a.normals[k], true, search);
   for (int i = 0; i < a.count; ++i) {
     for (int j = 0; j < b.count && !search.done; ++j) {
       Meeting x{.n = n, .a = a.features[i], .b = b.features[j]};
-      if (!meet(search.A, search.B, x.a, x.b, x.n)) continue;
+      if (!meet(search.A, search.B, x.a, x.b, x.n, turn)) continue;
       const Vec3 w = x.a.x - x.b.x;
       x.s = x.n.dot(difference(search.A, search.B, x.n));
       x.d = x.n.dot(w);
@@ -67,7 +67,8 @@ void offer_all(const Nearby& a, const Nearby& b, const Vec3& n, Search& search) 
   }
 }
 
-void search_from(const Vec3& first, Search& search) {
+/// @param turn [rad] of `first`, within which the gap's n is expected, and sought before anywhere
+void search_from(const Vec3& first, double turn, Search& search) {
   Meeting start = along(search.A, search.B, first);
   start.past = (start.a.x - start.b.x - start.d * start.n).norm();
   if (search.best.n.isZero(0) || start.s > search.best.s) search.best = start;
@@ -78,7 +79,7 @@ void search_from(const Vec3& first, Search& search) {
     const Vec3 n = search.best.n;
     find_nearby(search.A, -n, width, a);
     find_nearby(search.B, n, width, b);
-    offer_all(a, b, n, search);
+    offer_all(a, b, n, round == 0 ? turn : any_turn, search);
     width = std::fmin(1, 30 * width);  // corner over corner: n is anywhere in a cone
   }
 }
@@ -90,16 +91,19 @@ Gap convex_gap(const Solid& a, const Solid& b, const Vec3& origin) {
   search.best.n = Vec3::Zero();
   // polytopes are reached; curved ones only approached, and Newton goes on from there if it can
   const bool curved = a.curved || b.curved;
-  for (const double tolerance : {curved ? 1e-7 : 1e-14, 1e-14}) {
+  for (const double tolerance : {1e-3, 1e-7, 1e-14}) {
+    if (search.found) break;
+    if (!curved && tolerance > 1e-14) continue;
     const auto apart = direction_apart(a, b, tolerance);
-    if (!apart || search.found) break;
-    search_from(*apart, search);
-    if (!curved) break;
+    if (!apart) break;
+    // n is nearer than the root of the tolerance, by what GJK ends at; Newton's steps may stray
+    search_from(*apart, curved ? 4 * std::sqrt(tolerance) : any_turn, search);
   }
   if (!search.found) {
     const Vec3 n = direction_through(a, b);
     search.least = n.dot(difference(a, b, n));
-    search_from(n, search);
+    constexpr double near = 0.3;  // n is good to the root of 1e-6
+    search_from(n, near, search);
   }
   const Meeting& x = search.best;
   return {.phi = x.d - a.radius - b.radius,

@@ -29,7 +29,7 @@ Vec3 unit_across(const Vec3& v, const Vec3& t) {
   return across(w / norm, t).normalized();
 }
 
-bool meet_straight(Feature& a, Feature& b, Vec3& n) {
+bool meet_straight(double least_cos, Feature& a, Feature& b, Vec3& n) {
   const bool line_a = a.kind == Kind::edge, line_b = b.kind == Kind::edge;
   const Vec3 guess = n, w = a.x - b.x;
   if (line_a && line_b) {
@@ -48,7 +48,7 @@ bool meet_straight(Feature& a, Feature& b, Vec3& n) {
     n = w.norm() > 1e-150 ? Vec3(w.normalized()) : Vec3(Vec3::Zero());
   }
   if (n.dot(guess) < 0) n = -n;
-  return n.dot(guess) > 0.1;
+  return n.dot(guess) > least_cos;
 }
 
 /// M and -r, side by side: rows of a's tangents, of b's, and of the two axes across n.
@@ -140,21 +140,23 @@ double newton_step(const Solid& A, const Solid& B, double length, State& x) {
 
 }  // namespace
 
-bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n) {
-  if (a.kind <= Kind::edge && b.kind <= Kind::edge) return meet_straight(a, b, n);
+bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n, double turn) {
+  const double least_cos = std::cos(turn);
+  if (a.kind <= Kind::edge && b.kind <= Kind::edge) return meet_straight(least_cos, a, b, n);
   const double length = A.length + B.length;
   State x{a, b, n}, best = x;
   double least = -1;
   for (int k = 0; k < 16; ++k) {
     const State here = x;
     const double residual = newton_step(A, B, length, x);
+    if (!(x.n.dot(n) > least_cos)) return false;  // others meet there
     const bool better = least < 0 || residual < least;
     if (!better && least < 1e-9 * length) break;  // at rounding
     if (better) best = here;
     if (better) least = residual;
-    if (least < 1e-17 * length) break;
+    if (least <= 4e-16 * length) break;  // likewise
   }
-  if (!(least <= 1e-10 * length) || best.n.dot(n) < 0.1) return false;
+  if (!(least <= 1e-10 * length)) return false;
   a = best.a;
   b = best.b;
   n = best.n;

@@ -14,9 +14,12 @@ struct Meeting {
   double past = 0;  ///< [m] by how much the witnesses are none: past an end, not along n
 };
 
+/// [rad] By how much n may turn where nothing is known of it.
+inline constexpr double any_turn = 1.47;
+
 /// Moves the witnesses of `a` and `b` to where x - y is along n and n across both features;
-/// neither is a face. False where that is not found near the given n.
-bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n);
+/// neither is a face. False where that is not found with n turned by less than `turn`.
+bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n, double turn = any_turn);
 
 /// The witness for n, the normal of a face of a or of b: where a flat lies on a flat, the corner of
 /// what they share that is farthest from both solids' origins (the first such).
