@@ -93,6 +93,10 @@ void add_feature(const Patch& f, double sign, const Vec3& n, const Vec3 (&E)[2],
   }
 }
 
+double norm(double x, double y) { return std::sqrt(x * x + y * y); }
+
+constexpr double rounding = 4e-16;  ///< [length]
+
 struct State {
   Feature a, b;
   Vec3 n;
@@ -108,7 +112,7 @@ double slant(const Patch& f, const Vec3& n, double length) {
   return out;
 }
 
-/// One step of Newton's method; returns the residual [m] before it.
+/// One step of Newton's method, or none where the residual is rounding; returns it [m].
 double newton_step(const Solid& A, const Solid& B, double length, State& x) {
   const Vec3 first_axis = x.n.unitOrthogonal(), w = x.a.x - x.b.x;
   const Vec3 E[2] = {first_axis, x.n.cross(first_axis)};
@@ -122,10 +126,10 @@ double newton_step(const Solid& A, const Solid& B, double length, State& x) {
     M.row[turn + j][turn + j] = -x.n.dot(w);
     M.row[turn + j][6] = -E[j].dot(w);
   }
-  const double residual = std::hypot(M.row[turn][6], M.row[turn + 1][6]) + slant(a, x.n, length) +
+  const double residual = norm(M.row[turn][6], M.row[turn + 1][6]) + slant(a, x.n, length) +
                           slant(b, x.n, length);
-  if (!M.solve()) return residual;
-  const double u = M.row[turn][6], v = M.row[turn + 1][6], turned = std::hypot(u, v);
+  if (residual <= rounding * length || !M.solve()) return residual;
+  const double u = M.row[turn][6], v = M.row[turn + 1][6], turned = norm(u, v);
   if (!std::isfinite(turned)) return residual;
   const double shorter = turned > 0.3 ? 0.3 / turned : 1;
   // no farther than a solid's length
@@ -154,7 +158,7 @@ bool meet(const Solid& A, const Solid& B, Feature& a, Feature& b, Vec3& n, doubl
     if (!better && least < 1e-9 * length) break;  // at rounding
     if (better) best = here;
     if (better) least = residual;
-    if (least <= 4e-16 * length) break;  // likewise
+    if (least <= rounding * length) break;
   }
   if (!(least <= 1e-10 * length)) return false;
   a = best.a;
