@@ -138,6 +138,7 @@ Flight::Flight(const Scene& scene)
   if (scene.options.law == ImpactLaw::shadow_energy) meter.emplace(scene.model);
   closing_contact = fresh_contact(scene);
   settlings.reserve(64);
+  softs.reserve(64);
   hits.reserve(64);
   for (VecX* x : {&dq, &start_v, &before_v, &n}) x->setZero(scene.model.tree.n_v);
 }
@@ -153,6 +154,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
   make_rows(scene, left, node, memory, work.rows);
   // rows that have changed most often change others: a look is enough until none does
   work.rough = launch == nullptr ? rough_look : 0;
+  if (launch == nullptr) rest_as_before(scene, left, node, f);
   if (!solve_first_arc(scene, left, node, memory, work)) {
     if (!level_held_ends(scene, node, work.rows)) return no_arc(work);
     work.arc.v = node.v;

@@ -45,6 +45,12 @@ struct Hit {
               ///< is back before the arc ends
 };
 
+/// A pair that came to rest in an arc of this step.
+struct Soft {
+  int slot;
+  double acceleration;  ///< [m/s^2] of its gap, towards 0
+};
+
 /// Written by `fly`.
 struct Flight {
   explicit Flight(const Scene& scene);
@@ -53,6 +59,7 @@ struct Flight {
   int closing = -1;                 ///< slot of the pair whose impact was sought last
   int ends_at = -1;                 ///< slot of the pair whose impact ended the last shorter arc
   std::vector<Settling> settlings;  ///< of this flight; `pair` is a slot
+  std::vector<Soft> softs;          ///< of all flights of the step
   bool has_missed_energy = false;   ///< the launch could not be met: nodal_energy was used
 
   // scratch

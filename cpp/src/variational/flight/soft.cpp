@@ -33,6 +33,12 @@ struct Closing {
   double bounces(double e) const { return 2 * e * speed / (acceleration * (1 - e)); }
 };
 
+/// Of what closes with the acceleration a from c.phi on, at the rate u.
+Closing closing_with(double a, const Contact& c, double u) {
+  const double speed = std::sqrt(std::max(0.0, u * u + 2 * a * c.phi));
+  return {speed, a, (u + speed) / a};
+}
+
 /// Nothing where nobody knows: in an arc too short, or of a pair that is not pushed together.
 /// @param u [m/s] the gap's rate at the node
 std::optional<Closing> closing_of(const Scene& scene, const Contact& c, double u, const Pair& pair,
@@ -40,9 +46,7 @@ std::optional<Closing> closing_of(const Scene& scene, const Contact& c, double u
   const double tau = work.arc.tau;
   const double drop = phi_at_end(scene, pair, work) - c.phi - u * tau;
   if (!(drop < -1e3 * gap_rounding(c, pair))) return std::nullopt;
-  const double a = -2 * drop / (tau * tau);
-  const double speed = std::sqrt(std::max(0.0, u * u + 2 * a * c.phi));
-  return Closing{speed, a, (u + speed) / a};
+  return closing_with(-2 * drop / (tau * tau), c, u);
 }
 
 /// M^-1 p at the node; what a node without contacts has is the velocity of the arc before.
@@ -60,38 +64,81 @@ bool is_soft(const Closing& closing, double restitution, double h) {
   return closing.speed <= change && 4 * restitution * closing.speed <= change;
 }
 
+void note_soft(int slot, double acceleration, Flight& f) {
+  for (Soft& each : f.softs) {
+    if (each.slot == slot) return void(each.acceleration = acceleration);
+  }
+  f.softs.push_back({slot, acceleration});
+}
+
+/// The pair, open at the node, as a contact in f.closing_contact. @return false where it has none
+bool set_closing_contact(const Scene& scene, int slot, const Node& node, Flight& f) {
+  const Pair& pair = node.pool[slot];
+  const Gap g = pair_gap(scene.model.tree, node.kin, pair);
+  if (is_silent(scene.model.tree, node.kin, pair, g)) return false;
+  write_contact(scene, typical_speed(scene, node), slot, pair, g, node, f.work.rows.dense,
+                f.closing_contact);
+  return true;
+}
+
+void rest_hop(const Scene& scene, int contact, double over, const Node& node, Flight& f) {
+  f.settlings.push_back({node.t + over, node.contacts[contact].slot});
+  rest_from_now(scene, contact, node, f.work.rows);
+}
+
+void rest_closing(const Scene& scene, const Closing& closing, const Node& node, Flight& f) {
+  const Contact& c = f.closing_contact;
+  f.settlings.push_back({node.t + closing.time + closing.bounces(c.restitution), c.slot});
+  rest_ahead(scene, c, node, f.work.rows);
+}
+
 /// @return true where the hit is soft, and rests now
 bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
   ArcWork& work = f.work;
   const int contact = node.contact_at(hit.slot);
+  const double tau = work.arc.tau;
   if (hit.hops && contact >= 0) {
     const Return hop = return_of(scene, hit.slot, node, work);
     if (!hop.settles) return false;
-    const double time = settling_time(hop, node.contacts[contact].restitution);
-    f.settlings.push_back({node.t + time, hit.slot});
-    rest_from_now(scene, contact, node, work.rows);
+    note_soft(hit.slot, -2 * hop.drop / (tau * tau), f);
+    rest_hop(scene, contact, settling_time(hop, node.contacts[contact].restitution), node, f);
     return true;
   }
   if (contact >= 0 || hit.hops || !(hit.s > 0)) return false;
   if (properties_of(scene, hit.slot, node).restitution >= 1) return false;
-  const Pair& pair = node.pool[hit.slot];
-  const Gap g = pair_gap(scene.model.tree, node.kin, pair);
-  if (is_silent(scene.model.tree, node.kin, pair, g)) return false;
-  write_contact(scene, typical_speed(scene, node), hit.slot, pair, g, node, work.rows.dense,
-                f.closing_contact);
+  if (!set_closing_contact(scene, hit.slot, node, f)) return false;
   const Contact& c = f.closing_contact;
   const VecX* v = velocity_at(scene, node, f);
   if (v == nullptr) return false;
   const double u = dot(scene.trees, c.n, *v);
-  const std::optional<Closing> closing = closing_of(scene, c, u, pair, work);
+  const std::optional<Closing> closing = closing_of(scene, c, u, node.pool[hit.slot], work);
   if (!closing || !is_soft(*closing, c.restitution, scene.options.h)) return false;
-  const double over = closing->time + closing->bounces(c.restitution);
-  f.settlings.push_back({node.t + over, hit.slot});
-  rest_ahead(scene, c, node, work.rows);
+  note_soft(hit.slot, closing->acceleration, f);
+  rest_closing(scene, *closing, node, f);
   return true;
 }
 
 }  // namespace
+
+void rest_as_before(const Scene& scene, double left, const Node& node, Flight& f) {
+  if (!node.has_factors) return;
+  const double h = scene.options.h;
+  for (const Soft& soft : f.softs) {
+    const int contact = node.contact_at(soft.slot);
+    if (contact >= 0) {
+      const Contact& c = node.contacts[contact];
+      if (c.motion == Contact::Motion::rests || !(c.u > 0)) continue;
+      const double back = 2 * c.u / soft.acceleration, over = back / (1 - c.restitution);
+      if (back <= left && (over <= left || back <= h / 2)) rest_hop(scene, contact, over, node, f);
+      continue;
+    }
+    if (!set_closing_contact(scene, soft.slot, node, f)) continue;
+    const Contact& c = f.closing_contact;
+    const Closing closing = closing_with(soft.acceleration, c, dot(scene.trees, c.n, node.v));
+    if (closing.time > left || !is_soft(closing, c.restitution, h)) continue;
+    rest_closing(scene, closing, node, f);
+  }
+}
 
 bool rest_soft_hits(const Scene& scene, const Node& node, Flight& f) {
   const auto is_soft = [&](const Hit& hit) { return rest(scene, hit, node, f); };

@@ -26,6 +26,11 @@ Return return_of(const Scene& scene, int slot, const Node& node, ArcWork& work);
 /// [s] When all further hops of it would be over.
 double settling_time(const Return& hop, double restitution);
 
+/// Lets those rest at once that came to rest in an arc of this step which an impact of others cut,
+/// and by their gaps' rates at the node would again: of what an arc is needed to see of others it
+/// is known already.
+void rest_as_before(const Scene& scene, double left, const Node& node, Flight& f);
+
 /// Lets all hits that are so rest from now on, and takes them out of f.hits.
 /// @return true where there are some
 bool rest_soft_hits(const Scene& scene, const Node& node, Flight& f);
