@@ -64,7 +64,7 @@ bool is_soft(const Closing& closing, double restitution, double h) {
 bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
   ArcWork& work = f.work;
   const int contact = node.contact_at(hit.slot);
-  if (hit.hops && contact >= 0) {
+  if (contact >= 0) {  // it leaves, and comes back: on the chord, or by the chord's bend
     const Return hop = return_of(scene, hit.slot, node, work);
     if (!hop.settles) return false;
     const double time = settling_time(hop, node.contacts[contact].restitution);
@@ -72,7 +72,7 @@ bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
     rest_from_now(scene, contact, node, work.rows);
     return true;
   }
-  if (contact >= 0 || hit.hops || !(hit.s > 0)) return false;
+  if (!(hit.s > 0)) return false;
   if (properties_of(scene, hit.slot, node).restitution >= 1) return false;
   const Pair& pair = node.pool[hit.slot];
   const Gap g = pair_gap(scene.model.tree, node.kin, pair);
