@@ -87,3 +87,62 @@ def test_a_rim_that_lies_on_an_edge_ends_no_arc():
     stepper.advance(saltus.State(t=1.129999999999998, q=RIM_Q, p=RIM_P))
     assert stepper.report.arcs <= 10  # a few impacts
     assert not stepper.report.fallbacks
+
+
+def thrown_on_a_plank(seed: int, *, restitution: float, friction: float):
+    """Return the model and the state of a can that falls on a plank's edges and the floor."""
+    rng = np.random.default_rng(seed)
+    builder = saltus.ModelBuilder().add_floor()
+    builder.set_default_contact(restitution=restitution, friction=friction)
+    builder.add_body("can", saltus.Cylinder(0.1, 0.1), mass=1)
+    plank = saltus.Box((0.3, 0.1, 0.1))
+    builder.add_body("plank", plank, mass=2, X=saltus.Pose((0, 0, 0.1)))
+    model = builder.build()
+    place, attitude = [*rng.uniform(-0.2, 0.2, 2), 0.45], rng.normal(size=4)
+    q, v = model.state().q.copy(), np.zeros(model.n_v)
+    q[:7] = [*place, *attitude / np.linalg.norm(attitude)]
+    v[:6] = [*rng.uniform(-1, 1, 3), *rng.uniform(-5, 5, 3)]
+    return model, model.state(q, v)
+
+
+def most_arcs(model: saltus.Model, state: saltus.State, duration: float) -> int:
+    """Return the most arcs of a step; none falls back, no whole body sinks."""
+    stepper, most = saltus.Stepper(model, H), 0
+    for _ in range(round(duration / H)):
+        state = stepper.advance(state)
+        most = max(most, stepper.report.arcs)
+        assert not stepper.report.fallbacks
+        # a hundredth of what touches (1e-10 of the size), and rounding
+        assert model.gaps(state.q).phi.min() > -1e-10
+    return most
+
+
+def test_a_rim_that_an_edge_bears_ends_arcs_where_it_sinks():
+    """Its gap is that of the edge's crossing, 0: found to close in no time, it ended 148 arcs."""
+    model, state = thrown_on_a_plank(5, restitution=0.3, friction=0.2)
+    assert most_arcs(model, state, 1) <= 10  # a few impacts
+
+
+def test_edges_whose_lines_meet_beyond_their_ends_end_no_arc():
+    """The axis of a can and a plank's edge: where their lines met, 100 arcs ended."""
+    model, state = thrown_on_a_plank(0, restitution=0, friction=0)
+    assert most_arcs(model, state, 1) <= 10
+
+
+@pytest.mark.parametrize("seed", [0, 4, 6])
+def test_what_comes_back_by_the_bend_of_its_path_comes_to_rest(seed):
+    """A cube on an egg: its edge leaves, and turns back, in hops each of .3 of the last."""
+    rng = np.random.default_rng(seed)
+    builder = saltus.ModelBuilder()
+    for k, normal in enumerate([(1, 0, 1), (-1, 0, 1), (0, 1, 1), (0, -1, 1)]):
+        builder.add_half_space(f"plane_{k}", normal)
+    builder.set_default_contact(restitution=0.3, friction=0)
+    builder.add_body("cube", SHAPES["cube"], mass=1)
+    builder.add_body("egg", SHAPES["ellipsoid"], mass=1)
+    model = builder.build()
+    q = model.state().q.copy()
+    q[:3], q[7:10] = [*rng.uniform(-0.1, 0.1, 2), 0.4], [*rng.uniform(-0.1, 0.1, 2), 0.8]
+    for k in (3, 10):
+        q[k : k + 4] = rng.normal(size=4)
+    state = model.state(model.normalized(q), rng.uniform(-2, 2, model.n_v))
+    assert most_arcs(model, state, 1.2) <= 10  # 65, 102 and 124 before

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "saltus/collision/chord.hpp"
+#include "variational/flight/borne_rim.hpp"
 
 namespace saltus {
 namespace {
@@ -62,6 +63,10 @@ void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   const double reachable = pair.kind == PairKind::crossing ? 0 : level;  // edges meet at 0
   const double distance = node.clearances.least(Clearances::pairs, slot, pair);
   if (!pair.is_stop() && is_certified(distance, pair, reachable, f)) return;
+  if (is_borne(slot, node)) {
+    if (const std::optional<Hit> hit = sinking_hit(scene, slot, node, f)) f.hits.push_back(*hit);
+    return;
+  }
   const ChordHit hit = first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, level);
   if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
   const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
@@ -148,6 +153,14 @@ bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& w
     if (is_there && (!crosses || is_other_watched(model, node.contacts[i].slot, node))) return true;
   }
   return false;
+}
+
+bool meets_beyond_ends(const Scene& scene, int crossing, const Node& node, ArcWork& work) {
+  const Pair& pair = node.pool[crossing];
+  if (!std::holds_alternative<Crossing>(pair.kind)) return false;
+  place_end(scene.model, work.arc.q_end, work.scratch);
+  pair_gap_at_end(scene.model, pair, work.scratch);  // for its poses
+  return edge_distance(scene.model.tree, work.scratch.kin_end, pair) > pair.touch;
 }
 
 }  // namespace saltus

@@ -43,6 +43,7 @@ struct Hit {
   double s;   ///< where on the chord
   bool hops;  ///< it touches at the node and leaves, yet closes along the chord from the start: it
               ///< is back before the arc ends
+  bool sinks = false;  ///< a rim that another part bears at the node, and not on the arc
 };
 
 /// A pair that came to rest in an arc of this step.

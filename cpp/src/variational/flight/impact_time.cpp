@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "variational/arc/closing_arc.hpp"
+#include "variational/flight/borne_rim.hpp"
 #include "variational/flight/soft.hpp"
 
 namespace saltus {
@@ -237,6 +238,7 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
 
 ImpactTime find_impact_time(const Scene& scene, const Hit& hit, const Node& node, Memory& memory,
                             Flight& f) {
+  if (hit.sinks) return find_sinking_time(scene, hit, node, f);
   if (hit.hops || hit.s <= 0) {
     // a part that does not face the other any more is none
     if (node.contact_at(hit.slot) < 0) return ImpactTime::missed;

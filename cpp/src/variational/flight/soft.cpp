@@ -97,14 +97,14 @@ bool rest(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
   ArcWork& work = f.work;
   const int contact = node.contact_at(hit.slot);
   const double tau = work.arc.tau;
-  if (hit.hops && contact >= 0) {
+  if (contact >= 0) {  // it leaves, and comes back: on the chord, or by the chord's bend
     const Return hop = return_of(scene, hit.slot, node, work);
     if (!hop.settles) return false;
     note_soft(hit.slot, -2 * hop.drop / (tau * tau), f);
     rest_hop(scene, contact, settling_time(hop, node.contacts[contact].restitution), node, f);
     return true;
   }
-  if (contact >= 0 || hit.hops || !(hit.s > 0)) return false;
+  if (!(hit.s > 0)) return false;
   if (properties_of(scene, hit.slot, node).restitution >= 1) return false;
   if (!set_closing_contact(scene, hit.slot, node, f)) return false;
   const Contact& c = f.closing_contact;
