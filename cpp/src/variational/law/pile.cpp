@@ -12,6 +12,7 @@ constexpr int most_rounds = 80;    ///< 5 to 20 are usual
 constexpr int most_newton = 25;    ///< a round; 2 to 10 are usual
 constexpr int most_idle = 40;      ///< rounds that halve nothing
 constexpr double unknown = 1e-5;   ///< residual of impulses by contacts that do other than they did
+constexpr double known = 1e-7;     ///< below, what each contact does is known most often
 constexpr int light_sweeps = 30;   ///< as much work as one or two iterations
 constexpr int few = 4;             ///< contacts that Newton's method finds the way of by itself
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
@@ -131,7 +132,7 @@ Settled PileIsland::settle_scaled(double part) {
   }
   // far from the law softly, near it not; at once where it is known what each contact does
   const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
-  double rho = stiff_rho, halved = out.residual;
+  double rho = out.residual > known && k_ > few ? soft : stiff_rho, halved = out.residual;
   int idle = 0;
   Settled best = out;
   s_.p_best = s_.p;
