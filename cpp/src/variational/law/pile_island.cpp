@@ -50,7 +50,6 @@ void PileIsland::set_sizes() {
   for (auto* each : {&s_.first, &s_.last}) each->resize(k);
   s_.spans.assign(k, {});
   for (auto* each : {&s_.u, &s_.p, &s_.q, &s_.base, &s_.trial}) each->resize(k);
-  for (auto* each : {&s_.W, &s_.L, &s_.K}) grow(9 * k * k, *each);
   s_.pivot.clear();
   for (int i = 0; i < k_; ++i) {
     s_.place[contact(i)] = i;
@@ -64,7 +63,9 @@ void PileIsland::set_sizes() {
 
 /// W by rows, scaled.
 void PileIsland::set_W() {
-  std::fill_n(s_.W.begin(), stride_ * stride_, 0.0);
+  const auto size = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_);
+  grow(size, s_.W);
+  std::fill_n(s_.W.begin(), size, 0.0);
   for (int by = 0; by < k_; ++by) {
     const int c = contact(by);
     for (int e = W_.start[c]; e < W_.start[c + 1]; ++e) {
@@ -109,6 +110,8 @@ void PileIsland::add_rate(int i, int rate) {
 /// the order of contacts, L and K with the bands that W has.
 void PileIsland::factorize() {
   is_by_bodies_ = find_bodies();
+  const auto rates = static_cast<std::size_t>(3 * k_);
+  for (auto* each : {&s_.L, &s_.K}) grow(rates * static_cast<std::size_t>(stride_), *each);
   if (is_by_bodies_) {
     order_bodies();
     take_factors();
