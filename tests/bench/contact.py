@@ -52,6 +52,7 @@ class Scene:
     restitution: float = 0.0
     friction: float = 0.5
     walls: list[tuple[Vector, float]] = field(default_factory=list)
+    pegs: list[Body] = field(default_factory=list)  # balls that do not move
     rests: bool = False  # nothing should move
 
 
@@ -82,6 +83,22 @@ def heap(side: int) -> list[Body]:
     return [Body((0.05,), tuple(place)) for place in places]
 
 
+def galton(count: int) -> Scene:
+    """Balls between two plates that fall from peg to peg, five in a row."""
+    rng = np.random.default_rng(count)
+    pegs = [
+        Body((0.02,), (0.1 * i + 0.05 * (row % 2), 0.0, 0.1 + 0.09 * row))
+        for row in range(8)
+        for i in range(-6, 7)
+    ]
+    balls = [
+        Body((0.02,), (0.1 * (k % 5 - 2) + rng.uniform(-0.02, 0.02), 0.0, 0.9 + 0.06 * (k // 5)))
+        for k in range(count)
+    ]
+    plates = [((0, 1, 0), -0.021), ((0, -1, 0), -0.021)]
+    return Scene(f"galton {count}", balls, 0.4, 0.1, 0.5, 0.3, plates, pegs)
+
+
 def rolling_ball() -> Body:
     """Beside a tower, so that what stands still is one of two that a step is made for."""
     return Body((0.1,), (2, 0, 0.1), velocity=(1.0, 0.0, 0.0))
@@ -107,7 +124,7 @@ def scenes() -> list[Scene]:
               walls=box_walls(0.11 * n))
         for n in (2, 3)
     ]  # fmt: skip
-    return out
+    return [*out, galton(5), galton(50)]
 
 
 def model_of(scene: Scene) -> saltus.Model:
@@ -115,6 +132,8 @@ def model_of(scene: Scene) -> saltus.Model:
     builder.set_default_contact(restitution=scene.restitution, friction=scene.friction)
     for k, (normal, offset) in enumerate(scene.walls):
         builder.add_half_space(f"wall_{k}", normal, offset)
+    for peg in scene.pegs:
+        builder.add_shape("world", saltus.Sphere(peg.size[0]), saltus.Pose(peg.place))
     for i, body in enumerate(scene.bodies):
         shape = saltus.Sphere(body.size[0]) if body.is_ball else saltus.Box(body.size)
         X = saltus.Pose(body.place)
@@ -159,12 +178,17 @@ def of_saltus(scene: Scene) -> tuple[Callable[[], list[float]], Callable[[], dic
 def urdf_of(scene: Scene) -> str:
     """Return the same for programs that read files; bodies start without velocity."""
     bodies = "".join(urdf_body(i, body) for i, body in enumerate(scene.bodies))
+    pegs = "".join(
+        f'<collision><origin xyz="{words(peg.place)}"/><geometry><sphere radius="{peg.size[0]}"/>'
+        "</geometry></collision>"
+        for peg in scene.pegs
+    )
     planes = "".join(
         f'<half_space name="plane_{i}" normal="{words(normal)}" offset="{offset}"/>'
         for i, (normal, offset) in enumerate([((0.0, 0.0, 1.0), 0.0), *scene.walls])
     )
     return (
-        f'<robot name="{scene.name}"><link name="world"/>{bodies}<saltus>{planes}'
+        f'<robot name="{scene.name}"><link name="world">{pegs}</link>{bodies}<saltus>{planes}'
         f'<contact restitution="{scene.restitution}" friction="{scene.friction}"/></saltus></robot>'
     )
 
@@ -194,13 +218,18 @@ def mjcf_of(scene: Scene) -> str:
             f'friction="{scene.friction} 0 0"/></body>'
         )
     planes = [((0.0, 0.0, 1.0), 0.0), *scene.walls]
+    pegs = "".join(
+        f'<geom type="sphere" size="{peg.size[0]}" pos="{words(peg.place)}" '
+        f'friction="{scene.friction} 0 0"/>'
+        for peg in scene.pegs
+    )
     walls = "".join(
         f'<geom type="plane" size="9 9 1" zaxis="{words(normal)}" '
         f'pos="{words([offset * each for each in normal])}" friction="{scene.friction} 0 0"/>'
         for normal, offset in planes
     )
     return (
-        f'<mujoco><option timestep="{THEIR_H}"/><worldbody>{walls}{"".join(bodies)}'
+        f'<mujoco><option timestep="{THEIR_H}"/><worldbody>{walls}{pegs}{"".join(bodies)}'
         "</worldbody></mujoco>"
     )
 
