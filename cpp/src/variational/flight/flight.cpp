@@ -67,6 +67,7 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
   }
   if (found == ImpactTime::found) {
     f.ends_at = hit.slot;
+    f.skips.watch_again();  // what a longer arc missed may be closed where this one ends
     // Nothing more to find: both ends of its chord touch, or the arc ended at it already (far from
     // the origin the chord tells gaps apart no better than their rounding, and the end of an arc
     // that many rows hold is no sharper than what its Newton iteration leaves).
