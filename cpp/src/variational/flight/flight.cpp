@@ -178,12 +178,13 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       if (!changes && !knows_hits) find_hits(scene, node, f);
       changes = changes || rest_soft_hits(scene, node, f);
       work.rough = changes ? rough_look : 0;
-      // a look is enough of an arc that will be shortened, too
-      if (changes || (work.is_rough && f.hits.empty())) {
+      const std::optional<Hit> hit = changes ? std::nullopt : take_first(f.hits);
+      // a look is enough of an arc that will be shortened along a smooth path, too
+      const bool is_cut = hit && has_smooth_path(node.pool[hit->slot], work);
+      if (changes || (work.is_rough && !is_cut)) {
         knows_hits = false;
         continue;
       }
-      const std::optional<Hit> hit = take_first(f.hits);
       if (!hit) return arrived(f);
       found = shorten(scene, *hit, tau, node, memory, f);
       knows_hits = found == ImpactTime::missed;

@@ -17,6 +17,10 @@ double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
 
 namespace {
 
+bool has_rim(const Pair& pair) {
+  return std::holds_alternative<Rim>(pair.kind) || std::holds_alternative<RimCrossing>(pair.kind);
+}
+
 /// g and g' at the end of flight.arc.
 struct GapAtEnd {
   double phi;
@@ -55,6 +59,18 @@ double next_tau(const Bracket& b, double tau, const GapAtEnd& g) {
 bool is_free(const ArcWork& work) {
   return work.rows.active.empty() && work.line.use == LaunchLine::Use::none && !work.scratch.loops;
 }
+
+}  // namespace
+
+bool has_smooth_path(const Pair& pair, const ArcWork& work) {
+  if (is_free(work) || work.line.use != LaunchLine::Use::none || has_rim(pair)) return false;
+  return std::none_of(work.rows.active.begin(), work.rows.active.end(), [&](int i) {
+    const Row& row = work.rows.row[i];
+    return !row.is_joint() && has_rim(*row.pair);
+  });
+}
+
+namespace {
 
 /// Time and velocity at once; false leaves the arc's guess as it was.
 bool refine_at_once(const Scene& scene, const Pair& pair, double tau, double longest,
@@ -112,19 +128,6 @@ double root_on_path(const Scene& scene, const Pair& pair, const Bracket& b, cons
     side = g > 0 ? 1 : -1;
   }
   return (lo + hi) / 2;
-}
-
-bool has_rim(const Pair& pair) {
-  return std::holds_alternative<Rim>(pair.kind) || std::holds_alternative<RimCrossing>(pair.kind);
-}
-
-/// Contacts hold the arc, and no rim, whose lowest point leaps where it passes level.
-bool has_smooth_path(const Pair& pair, const ArcWork& work) {
-  if (is_free(work) || work.line.use != LaunchLine::Use::none || has_rim(pair)) return false;
-  return std::none_of(work.rows.active.begin(), work.rows.active.end(), [&](int i) {
-    const Row& row = work.rows.row[i];
-    return !row.is_joint() && has_rim(*row.pair);
-  });
 }
 
 bool solve_roughly(const Scene& scene, double tau, double rough, const Node& node, ArcWork& work) {

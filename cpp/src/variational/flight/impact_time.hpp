@@ -17,6 +17,9 @@ enum class ImpactTime {
 /// [m] of the pair, at the end of the arc.
 double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work);
 
+/// Contacts hold the arc, and no rim, whose lowest point leaps where it passes level.
+bool has_smooth_path(const Pair& pair, const ArcWork& work);
+
 /// Shortens flight.work.arc to where the pair that the chord hits closes; of one that hops, to its
 /// return. Writes memory.rate.
 ImpactTime find_impact_time(const Scene& scene, const Hit& hit, const Node& node, Memory& memory,
