@@ -173,6 +173,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/applied_derivative.cpp
   cpp/src/derivatives/arc_derivative.cpp
   cpp/src/derivatives/columns.cpp
+  cpp/src/derivatives/contact_placements.cpp
   cpp/src/derivatives/dense_arc.cpp
   cpp/src/derivatives/energy_derivative.cpp
   cpp/src/derivatives/flown_arc.cpp
@@ -182,6 +183,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/impulse_derivative.cpp
   cpp/src/derivatives/kick_derivative.cpp
   cpp/src/derivatives/parameters.cpp
+  cpp/src/derivatives/placements.cpp
   cpp/src/derivatives/program.cpp
   cpp/src/derivatives/rubbing.cpp
   cpp/src/derivatives/small_products.cpp

@@ -163,6 +163,7 @@ void bind_model_gradient(py::module_& m) {
       .def_readonly("friction", &G::friction)
       .def_readonly("springs", &G::springs)
       .def_readonly("dampers", &G::dampers)
+      .def_readonly("placements", &G::placements)
       .def("__repr__", [](const G& g) {
         return "ModelGradient(links=" + std::to_string(g.core.inertia.rows()) +
                ", n_v=" + std::to_string(g.core.damping.size()) + ")";

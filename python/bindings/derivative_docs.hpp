@@ -171,6 +171,9 @@ springs : dict of str to tuple of float
     By stiffness and length of each spring between two points, by its name.
 dampers : dict of str to float
     By the damping of each damper between two points, likewise.
+placements : dict of str to numpy.ndarray, shape (3,)
+    [1/m] By where the frame of each joint that moves is in its parent link, `X_PJ.p`, by the joint's
+    name; forces that are functions stay as they are. Those of fixed joints are not told.
 )";
 
 constexpr auto model_vjp_doc =

@@ -4001,6 +4001,9 @@ class ModelGradient:
         By stiffness and length of each spring between two points, by its name.
     dampers : dict of str to float
         By the damping of each damper between two points, likewise.
+    placements : dict of str to numpy.ndarray, shape (3,)
+        [1/m] By where the frame of each joint that moves is in its parent link, `X_PJ.p`, by the joint's
+        name; forces that are functions stay as they are. Those of fixed joints are not told.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -4016,6 +4019,10 @@ class ModelGradient:
     def friction(self) -> dict[str, float]: ...
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def placements(
+        self,
+    ) -> dict[str, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]: ...
     @property
     def rest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property

@@ -204,6 +204,7 @@ def derivatives() -> None:
     gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
     assert gradient.q.shape == (1,)
     assert gradient.restitution == gradient.friction == {}
+    assert all(place.shape == (3,) for place in gradient.placements.values())
     assert saltus.optimize.Quadratic is not None
     falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
     assert not falls.converged

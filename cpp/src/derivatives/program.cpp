@@ -124,9 +124,10 @@ void add_passing(const ModelData& model, const TapeArc& arc, FlownArc& arrival,
                  StepProgram& program) {
   program.pieces.push_back({Kind::pass, program.n_passings, 0});
   Passing& to = next_passing(program);
-  Kinematics kin(model.tree);
-  set_configuration(model.tree, arc.q_end, kin);
-  set_gap_derivative(model, kin, arc.pair, to.gap);
+  to.pair = arc.pair;
+  to.kin = Kinematics(model.tree);
+  set_configuration(model.tree, arc.q_end, to.kin);
+  set_gap_derivative(model, to.kin, arc.pair, to.gap);
   set_arrival(model, arrival, program.zero, to.arrival);
   to.slope = to.gap.n.dot(to.arrival.q);
 }

@@ -25,6 +25,8 @@ struct ImpactPieces {
 
 /// An arc that a gap ends without an impact.
 struct Passing {
+  int pair = -1;
+  Kinematics kin;
   GapDerivative gap;
   Tangent arrival;
   double slope = 0;

@@ -209,6 +209,7 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient
               all.actuators,
               all.springs,
               all.dampers,
+              by_joint(impl_->model, all.placement),
               by_pair(all, impl_->program.friction)};
   return out;
 }

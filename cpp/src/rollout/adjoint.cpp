@@ -101,6 +101,7 @@ struct Backwards {
     to.model.actuators += by_model.actuators;
     to.model.springs += by_model.springs;
     to.model.dampers += by_model.dampers;
+    to.model.placements += by_model.placements;
     for (const PairGradient& each : by_model.pairs) add(each);
     hat.q = std::move(back.q);
     hat.p = std::move(back.p);
@@ -135,6 +136,7 @@ RunGradient zero_of(const Model& model, const RunRows& rows, Eigen::Index steps)
   g.actuators.setZero(model->forces.n_u(), 4);
   g.springs.setZero(static_cast<Eigen::Index>(model->mass.potentials.springs.size()), 2);
   g.dampers.setZero(static_cast<Eigen::Index>(model->forces.dampers.size()));
+  g.placements.setZero(static_cast<Eigen::Index>(model->joints.size()), 3);
   return out;
 }
 

@@ -43,6 +43,8 @@ class RunGradient:
         By stiffness and length of each spring between two points, likewise.
     dampers : dict of str to float
         By the damping of each damper between two points, likewise.
+    placements : dict of str to numpy.ndarray, shape (3,)
+        [1/m] By where the frame of each joint that moves is in its parent link, likewise.
     forces : dict of str to numpy.ndarray, shape (steps, 3)
         [1/N] By the force of each wrench that was applied, by its link, in each step.
     """
@@ -62,6 +64,7 @@ class RunGradient:
     friction: dict[str, float]
     springs: dict[str, tuple[float, float]]
     dampers: dict[str, float]
+    placements: dict[str, Array]
     forces: dict[str, Array]
 
 
@@ -76,6 +79,7 @@ BY_MODEL = (
     "friction",
     "springs",
     "dampers",
+    "placements",
 )
 
 

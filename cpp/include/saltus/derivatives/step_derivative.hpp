@@ -72,6 +72,9 @@ struct ModelGradient {
   MatX actuators;
   MatX springs;  ///< (springs between points, 2) [N/m], [m] by stiffness and length
   VecX dampers;  ///< (dampers between points) [N s/m]
+  /// (joints, 3) by where each joint's frame is in its parent link's, in the axes of that link;
+  /// 0 of fixed ones.
+  MatX placements;
   std::vector<PairGradient> pairs;  ///< that rebound or rub, by their numbers; of others 0
 };
 
