@@ -171,6 +171,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/unlocated.cpp
   # derivatives
   cpp/src/derivatives/applied_derivative.cpp
+  cpp/src/derivatives/arc_curvature.cpp
   cpp/src/derivatives/arc_derivative.cpp
   cpp/src/derivatives/columns.cpp
   cpp/src/derivatives/contact_placements.cpp
@@ -186,6 +187,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/placements.cpp
   cpp/src/derivatives/program.cpp
   cpp/src/derivatives/rubbing.cpp
+  cpp/src/derivatives/second_derivative.cpp
   cpp/src/derivatives/small_products.cpp
   cpp/src/derivatives/step_derivative.cpp
   cpp/src/derivatives/verdict.cpp

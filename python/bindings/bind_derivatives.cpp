@@ -96,6 +96,19 @@ NamedModelGradient pull_model(SharedStepper& s, const Velocities& q_hat, const V
   return with_names(s.stepper.model(), std::move(out));
 }
 
+StepDirection bend(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat,
+                   const Velocities& dq, const Velocities& dp, const py::object& du,
+                   const Velocities& dqfrc, double dh) {
+  const StateDirection covector = to_covector(s, q_hat, p_hat);
+  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, {}, {py::float_(0.0)}, {});
+  return s.derive([&](StepDerivatives& all) { return all.hvp(covector, d); });
+}
+
+MatX bend_all(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat) {
+  const StateDirection covector = to_covector(s, q_hat, p_hat);
+  return s.derive([&](StepDerivatives& all) { return all.hessian(covector); });
+}
+
 void bind_impacts(py::module_& m) {
   using I = NamedImpactDerivative;
   py::class_<I>(m, "ImpactDerivative", impact_derivative_doc)
@@ -209,6 +222,9 @@ void bind_step_derivatives(py::class_<SharedStepper>& c) {
            none("drestitution"), py::arg("dfriction") = 0.0, none("dforces"))
       .def("vjp", &pull, vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def("model_gradient", &pull_model, model_vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
+      .def("hvp", &bend, hvp_doc, py::arg("q_hat"), py::arg("p_hat"), none("dq"), none("dp"),
+           none("du"), py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0)
+      .def("hessian", &bend_all, hessian_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def(
           "derivative",
           [](S& s) {

@@ -4281,6 +4281,72 @@ class Stepper:
         ModelError
             As `jvp`.
         """
+    def hessian(
+        self,
+        q_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        p_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        The Hessian of a cost of the last step's end, by all directions.
+
+        `hvp` for each. Needs `record=True`.
+
+        Parameters
+        ----------
+        q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+            As in `vjp`.
+
+        Returns
+        -------
+        numpy.ndarray, shape (2 n_v + n_u + 1, 2 n_v + n_u + 1)
+            By q, p, the controls and the step's duration; symmetric.
+
+        Raises
+        ------
+        ModelError
+            As `hvp`.
+        """
+    def hvp(
+        self,
+        q_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        p_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        dq: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        dp: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        du: typing.Any = None,
+        *,
+        dqfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> StepDirection:
+        """
+        The second derivative of a cost of the last step's end along a direction.
+
+        What `vjp(q_hat, p_hat)` changes by as the step's inputs move, with q_hat and p_hat held: the product
+        of the Hessian of q_hat.q + p_hat.p with a direction, in O(n), to rounding. Of smooth steps, one arc
+        without impacts and contacts, and of models without ball and free joints. Needs `record=True`.
+
+        Parameters
+        ----------
+        q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+            As in `vjp`.
+        dq, dp, du, dqfrc, dh
+            As in `jvp`.
+
+        Returns
+        -------
+        StepDirection
+            Without impacts, frictions and wrenches.
+
+        Raises
+        ------
+        ModelError
+            As `jvp`; and names what of the step or the model has no second derivative.
+        """
     def jvp(
         self,
         dq: collections.abc.Mapping[str, numpy.typing.ArrayLike]

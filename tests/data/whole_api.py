@@ -189,6 +189,8 @@ def derivatives() -> None:
     stepper = saltus.Stepper(model, h=0.01, record=True)
     stepper.advance(model.state())
     whole: saltus.StepDerivative = stepper.derivative()
+    bent: saltus.StepDirection = stepper.hvp([1.0], [0.0], dp=[1.0])
+    assert stepper.hessian([1.0], [0.0])[0, 1] == bent.q[0]
     covector: saltus.StepDirection = stepper.vjp([1.0], [0.0])
     by_model: saltus.ModelGradient = stepper.model_gradient([1.0], [0.0])
     orders: list[saltus.Selection] = stepper.selections()

@@ -1,40 +1,9 @@
-#include "saltus/derivatives/step_derivative.hpp"
-
 #include <limits>
 
-#include "derivatives/columns.hpp"
+#include "derivatives/step_impl.hpp"
 #include "derivatives/verdict.hpp"
 
 namespace saltus {
-
-struct StepDerivatives::Impl {
-  Impl(const Model& with, const StepOptions& with_options)
-      : shared(with_options.collisions ? with : with.without_collisions()),
-        options(with_options),
-        model(*shared),
-        dense(model) {}
-
-  void check(const StepDirection& d) const;
-  void need_step() const;
-  /// By a law that matches energies: the impulses of other orders are not made.
-  bool is_matched() const { return program.start.q.size() > 0 || program.has_match; }
-  void need_orders() const;
-  Tangent push(const StepDirection& by, Order order = Order::own);
-  StepDirection pull(const StateDirection& covector, bool with_parameters);
-  void set_columns(Input input, MatX& out);
-  double spread(const MatX& A, std::size_t impact, Smoothness& verdict);
-  bool is_at_edge() const;
-  void judge(StepDerivative& out);
-
-  Model shared;
-  StepOptions options;
-  const ModelData& model;
-  Tape tape;
-  StepProgram program;
-  DenseScratch dense;
-  ParameterGradient parameters;
-  bool is_set = false;
-};
 
 void StepDerivatives::Impl::need_step() const {
   if (!is_set)
@@ -71,6 +40,11 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
                      ", one for each pair that pushes with friction in the "
                      "step (rubbing)");
   }
+}
+
+void StepDerivatives::Impl::check(const StateDirection& covector) const {
+  check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
+  check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
 }
 
 Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
@@ -184,8 +158,7 @@ StateDirection StepDerivatives::directional(const StepDirection& direction) {
 
 StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool with_parameters) {
   need_step();
-  check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
-  check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
+  check(covector);
   Tangent z{covector.q, covector.p, 0, 0};
   StepDirection out;
   pull_program(model, tape, program, z, out, with_parameters ? &parameters : nullptr);

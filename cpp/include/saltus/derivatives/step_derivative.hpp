@@ -145,6 +145,12 @@ class SALTUS_EXPORT StepDerivatives {
   void derivative(MatX& A, MatX& B);
   /// The one-sided derivative along a direction, by the order that trajectories there have.
   StateDirection directional(const StepDirection& direction);
+  /// The second derivative of covector.(q, p) of the step's end along a direction, in O(n): what
+  /// vjp changes by. Of smooth steps, one arc without contacts, and of models without balls.
+  /// @throws ModelError that names what of the step or the model has none
+  StepDirection hvp(const StateDirection& covector, const StepDirection& direction);
+  /// The same for all directions of q, p, the controls and h: (2 n_v + n_u + 1) squared, symmetric.
+  MatX hessian(const StateDirection& covector);
   /// All orders of the impacts of each instant with several contacts.
   /// @param most of each impact
   std::vector<Selection> selections(int most = 1000);
