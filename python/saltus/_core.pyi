@@ -4738,6 +4738,10 @@ def adjoint(
     qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
     | numpy.typing.ArrayLike
     | None = None,
+    *,
+    every: typing.SupportsInt | typing.SupportsIndex = 1,
+    steps: typing.SupportsInt | typing.SupportsIndex = 0,
+    by_step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
 ) -> tuple[
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4755,19 +4759,23 @@ def adjoint(
     model : Model
     options : StepOptions
     t : numpy.ndarray, shape (rows,)
-        [s] a row for each step, and one more.
+        [s] of the start, of each so many steps, and of the end.
     q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
     q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
         The cost by each row's state.
     forces : mapping of links' names to Wrench, optional
     qfrc : mapping of names to values, or array_like, shape (n_v,), optional
         What was applied in all steps.
+    every, steps : int
+        Steps from row to row, and of the run; 0: as many as rows make.
+    by_step : numpy.ndarray, shape (steps, n_u), optional
+        The controls of each step, where rows do not tell them.
 
     Returns
     -------
     tuple
-        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
-        (steps, 3 wrenches), by h, and a ModelGradient.
+        By the start's q and p (n_v,), by control (rows - 1, n_u), or (steps, n_u), and qfrc
+        (rows - 1, n_v), by forces (rows - 1, 3 wrenches), by h, and a ModelGradient.
 
     Raises
     ------
