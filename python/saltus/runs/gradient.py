@@ -169,13 +169,19 @@ def gradient(
     """Return the gradient of a cost, see `Trajectory.gradient`."""
     check_origin(run, is_told=forces is not None or qfrc is not None)
     assert run.model is not None  # check_origin asks for one
-    apart = {"every": rows_apart(run), "steps": steps_of(run), "by_step": control_of(run, control)}
     rows, n_v = len(run.t), run.model.n_v
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)
     rows_told = (run.model, run.options, run.t, run.q, run.p, run.control)
     q, p, by_control, by_qfrc, by_forces, h, of_model = adjoint(
-        *rows_told, by_q, by_p, forces, qfrc, **apart
+        *rows_told,
+        by_q,
+        by_p,
+        forces,
+        qfrc,
+        every=rows_apart(run),
+        steps=steps_of(run),
+        by_step=control_of(run, control),
     )
     by_link = {str(link): by_forces[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
     parts = {name: getattr(of_model, name) for name in BY_MODEL}
