@@ -118,7 +118,7 @@ def check_run(run: Recording) -> None:
 
 def steps_of(run: Recording) -> int:
     """Return the number of steps of a run."""
-    return round((run.t[-1] - run.t[0]) / run.options.h)
+    return round(float(run.t[-1] - run.t[0]) / run.options.h)
 
 
 def check_origin(run: Recording, *, is_told: bool) -> None:
