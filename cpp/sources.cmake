@@ -183,6 +183,7 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/held_derivative.cpp
   cpp/src/derivatives/impulse_derivative.cpp
   cpp/src/derivatives/kick_derivative.cpp
+  cpp/src/derivatives/loop_rows.cpp
   cpp/src/derivatives/parameters.cpp
   cpp/src/derivatives/placements.cpp
   cpp/src/derivatives/program.cpp

@@ -98,7 +98,7 @@ Returns
 -------
 tuple
     By the start's q and p (n_v,), by control (rows - 1, n_u), or (steps, n_u), and qfrc
-    (rows - 1, n_v), by forces (rows - 1, 3 wrenches), by h, and a ModelGradient.
+    (rows - 1, n_v), by forces and torques (rows - 1, 3 wrenches), by h, and a ModelGradient.
 
 Raises
 ------
@@ -108,7 +108,7 @@ StepError, JammedError
     As `Stepper.advance`.
 )";
 
-using Gradient = std::tuple<VecX, VecX, MatX, MatX, MatX, double, NamedModelGradient>;
+using Gradient = std::tuple<VecX, VecX, MatX, MatX, MatX, MatX, double, NamedModelGradient>;
 
 Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& t, const MatX& q,
                     const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat,
@@ -128,6 +128,7 @@ Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& 
           std::move(g.control),
           std::move(g.qfrc),
           std::move(g.forces),
+          std::move(g.torques),
           g.h,
           with_names(model, std::move(g.model))};
 }

@@ -35,8 +35,8 @@ restitution : numpy.ndarray, shape (impacts,)
     Of each impact's restitution.
 friction : numpy.ndarray, shape (rubbing,)
     Of the coefficient of each pair in `StepDerivative.rubbing`.
-forces : numpy.ndarray, shape (wrenches, 3)
-    [N] of the force of each wrench that was applied, in their order.
+forces, torques : numpy.ndarray, shape (wrenches, 3)
+    [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 )";
 
 constexpr auto impact_derivative_doc = R"(An impact as the derivative of its step sees it.
@@ -77,8 +77,8 @@ friction : numpy.ndarray, shape (2 n_v, rubbing)
     By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
 rubbing : list of str
     Names of the pairs that pushed with friction, in arcs or impacts.
-forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
-    By the force of each wrench that was applied, in their order.
+forces, torques : numpy.ndarray, shape (2 n_v, 3 wrenches)
+    By each wrench that was applied, in their order and in the axes that each has.
 smoothness : Smoothness
 impacts : list of ImpactDerivative
 )";
@@ -117,8 +117,8 @@ drestitution : array_like, shape (impacts,), optional
     Of each impact's restitution.
 dfriction : float or array_like, shape (rubbing,)
     Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
-dforces : array_like, shape (wrenches, 3), optional
-    [N] of the force of each wrench that was applied, in their order.
+dforces, dtorques : array_like, shape (wrenches, 3), optional
+    [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 
 )" SALTUS_RETURNS_DIRECTION R"(
 Raises
@@ -248,7 +248,7 @@ in an order that depends on the direction: this takes that order. Else it is `jv
 
 Parameters
 ----------
-dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
+dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces, dtorques
     As in `jvp`.
 
 )" SALTUS_RETURNS_DIRECTION R"(

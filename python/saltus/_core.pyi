@@ -3954,8 +3954,8 @@ class StepDirection:
         Of each impact's restitution.
     friction : numpy.ndarray, shape (rubbing,)
         Of the coefficient of each pair in `StepDerivative.rubbing`.
-    forces : numpy.ndarray, shape (wrenches, 3)
-        [N] of the force of each wrench that was applied, in their order.
+    forces, torques : numpy.ndarray, shape (wrenches, 3)
+        [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -3975,6 +3975,8 @@ class StepDirection:
     def qfrc(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def restitution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def torques(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
 
 class ModelGradient:
     """
@@ -4112,8 +4114,8 @@ class StepDerivative:
         By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
     rubbing : list of str
         Names of the pairs that pushed with friction, in arcs or impacts.
-    forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
-        By the force of each wrench that was applied, in their order.
+    forces, torques : numpy.ndarray, shape (2 n_v, 3 wrenches)
+        By each wrench that was applied, in their order and in the axes that each has.
     smoothness : Smoothness
     impacts : list of ImpactDerivative
     """
@@ -4139,6 +4141,8 @@ class StepDerivative:
     def rubbing(self) -> list[str]: ...
     @property
     def smoothness(self) -> Smoothness: ...
+    @property
+    def torques(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
 
 class Stepper:
     """
@@ -4256,6 +4260,7 @@ class Stepper:
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
         dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        dtorques: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4268,7 +4273,7 @@ class Stepper:
 
         Parameters
         ----------
-        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
+        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces, dtorques
             As in `jvp`.
 
         Returns
@@ -4365,6 +4370,7 @@ class Stepper:
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
         dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        dtorques: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4389,8 +4395,8 @@ class Stepper:
             Of each impact's restitution.
         dfriction : float or array_like, shape (rubbing,)
             Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
-        dforces : array_like, shape (wrenches, 3), optional
-            [N] of the force of each wrench that was applied, in their order.
+        dforces, dtorques : array_like, shape (wrenches, 3), optional
+            [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 
         Returns
         -------
@@ -4748,6 +4754,7 @@ def adjoint(
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     float,
     ModelGradient,
 ]:
@@ -4775,7 +4782,7 @@ def adjoint(
     -------
     tuple
         By the start's q and p (n_v,), by control (rows - 1, n_u), or (steps, n_u), and qfrc
-        (rows - 1, n_v), by forces (rows - 1, 3 wrenches), by h, and a ModelGradient.
+        (rows - 1, n_v), by forces and torques (rows - 1, 3 wrenches), by h, and a ModelGradient.
 
     Raises
     ------

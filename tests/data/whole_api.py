@@ -198,6 +198,8 @@ def derivatives() -> None:
     assert whole.smoothness == saltus.Smoothness.smooth
     assert covector.q.shape == by_model.damping.shape == (1,)
     assert whole.rubbing == []
+    assert whole.torques.shape == (2, 0)
+    assert covector.torques.shape == (0, 3)
     assert covector.friction.shape == (0,)
     assert by_model.friction == {}
     assert orders == []
@@ -207,6 +209,7 @@ def derivatives() -> None:
     assert gradient.q.shape == (1,)
     assert gradient.restitution == gradient.friction == {}
     assert all(place.shape == (3,) for place in gradient.placements.values())
+    assert gradient.torques == {}
     assert saltus.optimize.Quadratic is not None
     falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
     assert not falls.converged

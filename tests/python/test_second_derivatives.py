@@ -153,7 +153,7 @@ def test_what_has_none_is_named():
     refused(cart.build(), "it has forces on links", forces={"cart": Wrench((1, 0, 0))})
     floor = cart.add_half_space("floor", (0, 0, 1), -0.1)
     held = floor.set_default_contact(restitution=0, friction=0).build()
-    refused(held, "it has contacts or dry friction that hold or push")
+    refused(held, "it has contacts, loops or dry friction that hold or push")
     stepper = saltus.Stepper(held, h=0.05, record=True)
     stepper.advance(held.state([0.1], [-3.0]))
     with pytest.raises(saltus.ModelError, match="it has an impact, or more than one arc"):

@@ -184,7 +184,7 @@ void multiply(const ArcDerivative& arc, const VecX& x, const VecX& y, CurvatureS
 void check_curvature(const ModelData& model, const FlownArc& flown) {
   const ArcDerivative& arc = flown.arc;
   if (!model.tree.balls.empty()) refuse("a ball or free joint");
-  if (!is_plain(flown)) refuse("contacts or dry friction that hold or push");
+  if (!is_plain(flown)) refuse("contacts, loops or dry friction that hold or push");
   if (!model.forces.functions.empty()) refuse("forces that are functions");
   if (!model.mass.potentials.functions.empty()) refuse("potentials that are functions");
   if (!model.forces.dampers.empty()) refuse("dampers between points");

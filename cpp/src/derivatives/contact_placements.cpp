@@ -1,6 +1,7 @@
 #include "derivatives/contact_placements.hpp"
 
 #include "derivatives/held_rows.hpp"
+#include "derivatives/loop_rows.hpp"
 
 namespace saltus {
 
@@ -43,6 +44,10 @@ void add_kick_placements(const ModelData& model, const VecX& q, const KickDeriva
   for (std::size_t k = 0; k < hats.size(); ++k) {
     const KickContact& contact = kick.contacts[k];
     if (contact.joint >= 0) continue;
+    if (contact.loop >= 0) {
+      add_loop_placements(model, kin, contact.loop, hats[k].row[0], 0, to.by_joint);
+      continue;
+    }
     add_row_placements(model, kin, contact.pair, contact.frame, hats[k], to.by_joint);
   }
 }
@@ -61,6 +66,11 @@ void add_held_placements(const ModelData& model, const FlownArc& arc, const VecX
     const Eigen::Index first = at;
     at += rates_of(row);
     if (row.joint >= 0) continue;
+    if (row.loop >= 0) {
+      add_loop_placements(model, places.start, row.loop, row.P[0] * p_hat, 0, to.by_joint);
+      add_loop_placements(model, places.end, row.loop, {}, of_rates[first], to.by_joint);
+      continue;
+    }
     const Pair pair = pair_of(model, row.pair);
     const Pair& own = watched(row, pair);
     RowCovectors push, middle, gap, chord;

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 
 #include "derivatives/held_rows.hpp"
+#include "derivatives/loop_rows.hpp"
 
 namespace saltus {
 namespace {
@@ -59,6 +60,12 @@ Vec2 add_rates(const ModelData& model, const Places& places, const TapeRow& row,
   if (row.joint >= 0) {
     held.G_v(row.joint, at) = 1;
     if (row.slides) held.rubs[row.joint] += row.P[0] / arc.tau;
+    return Vec2::Zero();
+  }
+  if (row.loop >= 0) {
+    FrameDerivative end;
+    set_loop_row(model, places.end, row.loop, end);
+    held.G_q.col(at) = end.row[0];
     return Vec2::Zero();
   }
   const Pair pair = pair_of(model, row.pair);
@@ -176,6 +183,8 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
     FrameDerivative& frame = held.frames[static_cast<std::size_t>(k)];
     if (row.joint >= 0) {
       set_joint_frame(model, row.joint, frame);
+    } else if (row.loop >= 0) {
+      set_loop_row(model, places.start, row.loop, frame);
     } else {
       const Pair pair = pair_of(model, row.pair);
       const bool at_a = pair.on_b.joint < 0;  // friction_point
@@ -223,8 +232,9 @@ void set_closing_kick(const ModelData& model, const Tape& tape, const TapeArc& t
 KickContact contact_of(const ModelData& model, const TapeRow& row) {
   KickContact out;
   out.joint = row.joint;
+  out.loop = row.loop;
   out.P = row.P;
-  if (row.joint >= 0) return out;
+  if (row.joint >= 0 || row.loop >= 0) return out;
   out.number = row.pair;
   out.pair = row.is_frozen ? row.frozen : pair_of(model, row.pair);
   out.frame = choice_of(row, false);

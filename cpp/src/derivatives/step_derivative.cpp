@@ -28,11 +28,14 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
   fits(d.qfrc, model.tree.n_v, "dqfrc", "velocities");
   fits(d.restitution, program.n_impacts, "drestitution", "impacts");
   const auto wrenches = static_cast<Eigen::Index>(tape.input.wrenches.size());
-  if (d.forces.size() > 0 && (d.forces.rows() != wrenches || d.forces.cols() != 3)) {
-    throw ModelError("dforces is " + std::to_string(d.forces.rows()) + " by " +
-                     std::to_string(d.forces.cols()) + "; it is " + std::to_string(wrenches) +
+  const auto fits_wrenches = [&](const MatX& x, const std::string& what) {
+    if (x.size() == 0 || (x.rows() == wrenches && x.cols() == 3)) return;
+    throw ModelError(what + " is " + std::to_string(x.rows()) + " by " + std::to_string(x.cols()) +
+                     "; it is " + std::to_string(wrenches) +
                      " by 3, a row for each wrench that was applied in the step");
-  }
+  };
+  fits_wrenches(d.forces, "dforces");
+  fits_wrenches(d.torques, "dtorques");
   const auto rubs = static_cast<Eigen::Index>(program.friction.pairs.size());
   if (d.friction.size() > 0 && d.friction.size() != rubs) {
     throw ModelError("dfriction has " + std::to_string(d.friction.size()) + " entries; it has " +
@@ -201,6 +204,7 @@ StepDerivative StepDerivatives::derivative() {
   impl_->set_columns(Input::friction, out.friction);
   out.rubbing = rubbing();
   impl_->set_columns(Input::forces, out.forces);
+  impl_->set_columns(Input::torques, out.torques);
   if (impl_->program.tells_time) {
     StepDirection by;
     by.h = 1;

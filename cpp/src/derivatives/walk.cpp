@@ -27,6 +27,10 @@ double shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, dou
 
 double entry(const VecX& x, int k) { return x.size() > 0 ? x[k] : 0; }
 
+Vec3 row_of(const MatX& x, std::size_t k) {
+  return x.size() > 0 ? Vec3(x.row(static_cast<Eigen::Index>(k)).transpose()) : Vec3(Vec3::Zero());
+}
+
 /// [s] What an arc's duration changes by, where the step's does by h and `left` of it is left.
 double duration_of(const StepProgram::Piece& piece, double h, double left) {
   if (piece.kind == Kind::rest) return left;
@@ -115,10 +119,10 @@ void push_piece(const ModelData& model, const Tape& tape, const StepDirection& b
   FlownArc& arc = *program.arcs[k];
   program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
   if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
-  for (Eigen::Index i = 0; i < by.forces.rows(); ++i) {
-    const Vec3 force = by.forces.row(i).transpose();
-    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(i)], force,
-             program.dQ);
+  for (std::size_t i = 0; i < tape.input.wrenches.size(); ++i) {
+    const Vec3 force = row_of(by.forces, i), torque = row_of(by.torques, i);
+    if (force.isZero(0) && torque.isZero(0)) continue;
+    add_push(model, arc.arc.s.w, tape.input.wrenches[i], force, torque, program.dQ);
   }
   const double dtau = duration_of(piece, by.h, left);
   push_flown(model, arc, program.dQ, dtau, program.friction, z);
@@ -208,7 +212,9 @@ void pull_program(const ModelData& model, const Tape& tape, StepProgram& program
   Rubbing& friction = program.friction;
   friction.value.setZero(static_cast<Eigen::Index>(friction.pairs.size()));
   const std::vector<AppliedWrench>& wrenches = tape.input.wrenches;
-  to.forces.setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
+  for (MatX* each : {&to.forces, &to.torques}) {
+    each->setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
+  }
   to.h = 0;
   double left = 0;
   if (program.has_rest) left = program.motion.q.dot(z.q) + program.motion.p.dot(z.p);
@@ -233,8 +239,9 @@ void pull_program(const ModelData& model, const Tape& tape, StepProgram& program
     to.qfrc += program.dQ;
     if (to.control.size() > 0) to.control += arc.arc.Q_u.transpose() * program.dQ;
     for (std::size_t i = 0; i < wrenches.size(); ++i) {
-      const Vec3 of_force = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
-      to.forces.row(static_cast<Eigen::Index>(i)) += of_force.transpose();
+      const PulledWrench by = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
+      to.forces.row(static_cast<Eigen::Index>(i)) += by.force.transpose();
+      to.torques.row(static_cast<Eigen::Index>(i)) += by.torque.transpose();
     }
     if (piece->kind == Kind::rest) left = of_tau;
     if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);

@@ -88,7 +88,8 @@ struct Backwards {
   /// Rows a step each are asked once a part: states may leave them by rounding, and stay lawful.
   bool is_asked(Eigen::Index k, Eigen::Index first) const {
     if (rows.every > 1) return true;
-    return k == first && (rows.qfrc.size() > 0 || !rows.wrenches.empty());
+    return k == first &&
+           (rows.qfrc.size() > 0 || !rows.wrenches.empty() || model->equalities.rows > 0);
   }
 
   /// A state that a part begins with, a few steps before its first.
@@ -143,6 +144,7 @@ struct Backwards {
     to.qfrc.row(row) += back.qfrc.transpose();
     for (Eigen::Index i = 0; i < back.forces.rows(); ++i) {
       to.forces.block<1, 3>(row, 3 * i) += back.forces.row(i);
+      to.torques.block<1, 3>(row, 3 * i) += back.torques.row(i);
     }
     to.h += back.h;
     to.model.inertia += by_model.inertia;
@@ -199,7 +201,9 @@ RunGradient zero_of(const Model& model, const RunRows& rows) {
   const Eigen::Index controls = rows.by_step.size() > 0 ? rows.by_step.rows() : parts;
   out.control.setZero(controls, model->forces.n_u());
   out.qfrc.setZero(parts, n);
-  out.forces.setZero(parts, static_cast<Eigen::Index>(3 * rows.wrenches.size()));
+  for (MatX* each : {&out.forces, &out.torques}) {
+    each->setZero(parts, static_cast<Eigen::Index>(3 * rows.wrenches.size()));
+  }
   ModelGradient& g = out.model;
   g.inertia.setZero(static_cast<Eigen::Index>(model->links.size()), 10);
   for (VecX* each : {&g.stiffness, &g.rest, &g.damping, &g.armature}) each->setZero(n);

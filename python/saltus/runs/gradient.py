@@ -46,8 +46,9 @@ class RunGradient:
         By the damping of each damper between two points, likewise.
     placements : dict of str to numpy.ndarray, shape (3,)
         [1/m] By where the frame of each joint that moves is in its parent link, likewise.
-    forces : dict of str to numpy.ndarray, shape (rows - 1, 3)
-        [1/N] By the force of each wrench that was applied, by its link, likewise.
+    forces, torques : dict of str to numpy.ndarray, shape (rows - 1, 3)
+        [1/N], [1/(N m)] By each wrench that was applied, by its link, in the axes that it has,
+        likewise.
     """
 
     q: Array
@@ -67,6 +68,7 @@ class RunGradient:
     dampers: dict[str, float]
     placements: dict[str, Array]
     forces: dict[str, Array]
+    torques: dict[str, Array]
 
 
 BY_MODEL = (
@@ -128,6 +130,8 @@ def check_origin(run: Recording, *, is_told: bool) -> None:
     """
     if run.model is None:
         raise ModelError("the run has no model; saltus.load reads it where the file has one")
+    # what moves prescribed joints does work, too; steps made again tell other forces apart
+    is_told = is_told or any(name.endswith(" prescribed") for name in run.model.loop_names)
     if np.any(run.work["applied"]) and not is_told:
         raise ModelError(
             "forces were applied in the run, which it does not record; give them as actuators, or "
@@ -173,7 +177,7 @@ def gradient(
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)
     rows_told = (run.model, run.options, run.t, run.q, run.p, run.control)
-    q, p, by_control, by_qfrc, by_forces, h, of_model = adjoint(
+    q, p, by_control, by_qfrc, *by_wrenches, h, of_model = adjoint(
         *rows_told,
         by_q,
         by_p,
@@ -183,6 +187,9 @@ def gradient(
         steps=steps_of(run),
         by_step=control_of(run, control),
     )
-    by_link = {str(link): by_forces[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
+    by_link = [
+        {str(link): by[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
+        for by in by_wrenches
+    ]
     parts = {name: getattr(of_model, name) for name in BY_MODEL}
-    return RunGradient(q, p, by_control, by_qfrc, h, **parts, forces=by_link)
+    return RunGradient(q, p, by_control, by_qfrc, h, **parts, forces=by_link[0], torques=by_link[1])

@@ -49,6 +49,7 @@ struct StepDirection {
   VecX restitution;  ///< (impacts) of each impact, all its contacts alike
   VecX friction;     ///< (rubbing) of each pair in StepDerivatives::rubbing
   MatX forces;       ///< (wrenches, 3) [N] of the force of each wrench that was applied
+  MatX torques;      ///< (wrenches, 3) [N m] of its torque; both in the axes that it has
 };
 
 /// What happens where a pair touches, as a covector has it.
@@ -103,6 +104,7 @@ struct StepDerivative {
   MatX friction;                               ///< (2 n_v, rubbing) by each pair's friction
   std::vector<int> rubbing;                    ///< numbers of these pairs
   MatX forces;                                 ///< (2 n_v, 3 wrenches) by each one's force
+  MatX torques;                                ///< (2 n_v, 3 wrenches) by each one's torque
   Smoothness smoothness = Smoothness::smooth;  ///< what all this is worth
   std::vector<ImpactDerivative> impacts;       ///< in order
 };

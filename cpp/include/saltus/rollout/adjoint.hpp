@@ -14,6 +14,7 @@ struct RunGradient {
   MatX control;         ///< (rows - 1, n_u), or (steps, n_u) where it was told by step
   MatX qfrc;            ///< (rows - 1, n_v) [1/(N m) | 1/N] by forces on the coordinates
   MatX forces;          ///< (rows - 1, 3 wrenches) [1/N] by the force of each wrench
+  MatX torques;         ///< (rows - 1, 3 wrenches) [1/(N m)] by its torque
   double h = 0;         ///< [1/s] by the duration of all steps alike
   ModelGradient model;  ///< by what the model is made of, p of the start held
 };
