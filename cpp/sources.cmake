@@ -173,8 +173,10 @@ set(SALTUS_SOURCES
   cpp/src/variational/step/unlocated.cpp
   # derivatives
   cpp/src/derivatives/applied_derivative.cpp
+  cpp/src/derivatives/arc_curvature.cpp
   cpp/src/derivatives/arc_derivative.cpp
   cpp/src/derivatives/columns.cpp
+  cpp/src/derivatives/contact_placements.cpp
   cpp/src/derivatives/dense_arc.cpp
   cpp/src/derivatives/energy_derivative.cpp
   cpp/src/derivatives/flown_arc.cpp
@@ -183,9 +185,12 @@ set(SALTUS_SOURCES
   cpp/src/derivatives/held_derivative.cpp
   cpp/src/derivatives/impulse_derivative.cpp
   cpp/src/derivatives/kick_derivative.cpp
+  cpp/src/derivatives/loop_rows.cpp
   cpp/src/derivatives/parameters.cpp
+  cpp/src/derivatives/placements.cpp
   cpp/src/derivatives/program.cpp
   cpp/src/derivatives/rubbing.cpp
+  cpp/src/derivatives/second_derivative.cpp
   cpp/src/derivatives/small_products.cpp
   cpp/src/derivatives/step_derivative.cpp
   cpp/src/derivatives/verdict.cpp

@@ -51,7 +51,8 @@ VecX to_frictions(SharedStepper& s, const PerContact& dfriction) {
 StepDirection to_direction(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
                            const std::optional<VecX>& drestitution, const PerContact& dfriction,
-                           const std::optional<MatX>& dforces) {
+                           const std::optional<MatX>& dforces,
+                           const std::optional<MatX>& dtorques) {
   const Model& model = s.stepper.model();
   StepDirection d;
   const auto vector = [&](const Velocities& x, const char* what) {
@@ -65,6 +66,7 @@ StepDirection to_direction(SharedStepper& s, const Velocities& dq, const Velocit
   if (drestitution) d.restitution = *drestitution;
   d.friction = to_frictions(s, dfriction);
   if (dforces) d.forces = *dforces;
+  if (dtorques) d.torques = *dtorques;
   return d;
 }
 
@@ -72,8 +74,10 @@ template <auto product>
 std::pair<VecX, VecX> push(SharedStepper& s, const Velocities& dq, const Velocities& dp,
                            const py::object& du, const Velocities& dqfrc, double dh,
                            const std::optional<VecX>& drestitution, const PerContact& dfriction,
-                           const std::optional<MatX>& dforces) {
-  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces);
+                           const std::optional<MatX>& dforces,
+                           const std::optional<MatX>& dtorques) {
+  const StepDirection d =
+      to_direction(s, dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces, dtorques);
   StateDirection out = s.derive([&](StepDerivatives& all) { return (all.*product)(d); });
   return {std::move(out.q), std::move(out.p)};
 }
@@ -94,6 +98,19 @@ NamedModelGradient pull_model(SharedStepper& s, const Velocities& q_hat, const V
   ModelGradient out;
   s.derive([&](StepDerivatives& all) { return all.vjp(covector, out); });
   return with_names(s.stepper.model(), std::move(out));
+}
+
+StepDirection bend(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat,
+                   const Velocities& dq, const Velocities& dp, const py::object& du,
+                   const Velocities& dqfrc, double dh) {
+  const StateDirection covector = to_covector(s, q_hat, p_hat);
+  const StepDirection d = to_direction(s, dq, dp, du, dqfrc, dh, {}, {py::float_(0.0)}, {}, {});
+  return s.derive([&](StepDerivatives& all) { return all.hvp(covector, d); });
+}
+
+MatX bend_all(SharedStepper& s, const Velocities& q_hat, const Velocities& p_hat) {
+  const StateDirection covector = to_covector(s, q_hat, p_hat);
+  return s.derive([&](StepDerivatives& all) { return all.hessian(covector); });
 }
 
 void bind_impacts(py::module_& m) {
@@ -134,6 +151,7 @@ void bind_step_derivative(py::module_& m) {
       .def_property_readonly("friction", [](const D& d) { return d.core.friction; })
       .def_readonly("rubbing", &D::rubbing)
       .def_property_readonly("forces", [](const D& d) { return d.core.forces; })
+      .def_property_readonly("torques", [](const D& d) { return d.core.torques; })
       .def_property_readonly("smoothness", [](const D& d) { return d.core.smoothness; })
       .def_readonly("impacts", &D::impacts)
       .def("__repr__", [](const D& d) {
@@ -163,6 +181,7 @@ void bind_model_gradient(py::module_& m) {
       .def_readonly("friction", &G::friction)
       .def_readonly("springs", &G::springs)
       .def_readonly("dampers", &G::dampers)
+      .def_readonly("placements", &G::placements)
       .def("__repr__", [](const G& g) {
         return "ModelGradient(links=" + std::to_string(g.core.inertia.rows()) +
                ", n_v=" + std::to_string(g.core.damping.size()) + ")";
@@ -188,6 +207,7 @@ void bind_derivative_types(py::module_& m) {
       .def_readonly("restitution", &D::restitution)
       .def_readonly("friction", &D::friction)
       .def_readonly("forces", &D::forces)
+      .def_readonly("torques", &D::torques)
       .def("__repr__", [](const D& d) {
         return "StepDirection(n_v=" + std::to_string(d.q.size()) +
                ", n_u=" + std::to_string(d.control.size()) + ")";
@@ -202,12 +222,15 @@ void bind_step_derivatives(py::class_<SharedStepper>& c) {
   const auto none = [](const char* name) { return py::arg(name) = py::none(); };
   c.def("jvp", &push<&StepDerivatives::jvp>, jvp_doc, none("dq"), none("dp"), none("du"),
         py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0, none("drestitution"),
-        py::arg("dfriction") = 0.0, none("dforces"))
+        py::arg("dfriction") = 0.0, none("dforces"), none("dtorques"))
       .def("directional", &push<&StepDerivatives::directional>, directional_doc, none("dq"),
            none("dp"), none("du"), py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0,
-           none("drestitution"), py::arg("dfriction") = 0.0, none("dforces"))
+           none("drestitution"), py::arg("dfriction") = 0.0, none("dforces"), none("dtorques"))
       .def("vjp", &pull, vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def("model_gradient", &pull_model, model_vjp_doc, py::arg("q_hat"), py::arg("p_hat"))
+      .def("hvp", &bend, hvp_doc, py::arg("q_hat"), py::arg("p_hat"), none("dq"), none("dp"),
+           none("du"), py::kw_only(), none("dqfrc"), py::arg("dh") = 0.0)
+      .def("hessian", &bend_all, hessian_doc, py::arg("q_hat"), py::arg("p_hat"))
       .def(
           "derivative",
           [](S& s) {

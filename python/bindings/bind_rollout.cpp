@@ -82,19 +82,23 @@ Parameters
 model : Model
 options : StepOptions
 t : numpy.ndarray, shape (rows,)
-    [s] a row for each step, and one more.
+    [s] of the start, of each so many steps, and of the end.
 q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
 q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
     The cost by each row's state.
 forces : mapping of links' names to Wrench, optional
 qfrc : mapping of names to values, or array_like, shape (n_v,), optional
     What was applied in all steps.
+every, steps : int
+    Steps from row to row, and of the run; 0: as many as rows make.
+by_step : numpy.ndarray, shape (steps, n_u), optional
+    The controls of each step, where rows do not tell them.
 
 Returns
 -------
 tuple
-    By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
-    (steps, 3 wrenches), by h, and a ModelGradient.
+    By the start's q and p (n_v,), by control (rows - 1, n_u), or (steps, n_u), and qfrc
+    (rows - 1, n_v), by forces and torques (rows - 1, 3 wrenches), by h, and a ModelGradient.
 
 Raises
 ------
@@ -104,13 +108,15 @@ StepError, JammedError
     As `Stepper.advance`.
 )";
 
-using Gradient = std::tuple<VecX, VecX, MatX, MatX, MatX, double, NamedModelGradient>;
+using Gradient = std::tuple<VecX, VecX, MatX, MatX, MatX, MatX, double, NamedModelGradient>;
 
 Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& t, const MatX& q,
                     const MatX& p, const MatX& control, const MatX& q_hat, const MatX& p_hat,
-                    const Wrenches& forces, const Velocities& qfrc) {
+                    const Wrenches& forces, const Velocities& qfrc, Eigen::Index every,
+                    Eigen::Index steps, const std::optional<MatX>& by_step) {
   const ForceInput input = to_input(py::none(), forces, qfrc, model);
-  const RunRows rows{t, q, p, control, input.qfrc, input.wrenches};
+  const RunRows rows{
+      t, q, p, control, input.qfrc, input.wrenches, every, steps, by_step.value_or(MatX())};
   const auto goes_on = [] {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -122,6 +128,7 @@ Gradient adjoint_of(const Model& model, const StepOptions& options, const VecX& 
           std::move(g.control),
           std::move(g.qfrc),
           std::move(g.forces),
+          std::move(g.torques),
           g.h,
           with_names(model, std::move(g.model))};
 }
@@ -224,7 +231,8 @@ void bind_rollout(py::module_& m) {
   m.def("energies", &energies, energies_doc, py::arg("model"), py::arg("state"), py::arg("h"));
   m.def("adjoint", &adjoint_of, adjoint_doc, py::arg("model"), py::arg("options"), py::arg("t"),
         py::arg("q"), py::arg("p"), py::arg("control"), py::arg("q_hat"), py::arg("p_hat"),
-        py::arg("forces") = py::none(), py::arg("qfrc") = py::none());
+        py::arg("forces") = py::none(), py::arg("qfrc") = py::none(), py::kw_only(),
+        py::arg("every") = 1, py::arg("steps") = 0, py::arg("by_step") = py::none());
   m.def("simulate", &run, simulate_doc, py::arg("run"), py::arg("start"), py::arg("duration"),
         py::kw_only(), py::arg_v("options", StepOptions{}, "StepOptions()"),
         py::arg("record_every") = 1, py::arg("record_contacts") = false,

@@ -78,7 +78,7 @@ AppliedWrench applied(const std::string& name, const Wrench& wrench, const Model
   const Mat3& R = link.X_JL.R;
   const Vec3 point = link.X_JL * wrench.point;
   if (!wrench.in_body) return {link.joint, point, wrench.force, wrench.torque, false};
-  return {link.joint, point, R * wrench.force, R * wrench.torque, true};
+  return {link.joint, point, R * wrench.force, R * wrench.torque, true, R};
 }
 
 void add_wrenches(const Wrenches& forces, const Model& model, ForceInput& input) {

@@ -35,8 +35,8 @@ restitution : numpy.ndarray, shape (impacts,)
     Of each impact's restitution.
 friction : numpy.ndarray, shape (rubbing,)
     Of the coefficient of each pair in `StepDerivative.rubbing`.
-forces : numpy.ndarray, shape (wrenches, 3)
-    [N] of the force of each wrench that was applied, in their order.
+forces, torques : numpy.ndarray, shape (wrenches, 3)
+    [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 )";
 
 constexpr auto impact_derivative_doc = R"(An impact as the derivative of its step sees it.
@@ -77,8 +77,8 @@ friction : numpy.ndarray, shape (2 n_v, rubbing)
     By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
 rubbing : list of str
     Names of the pairs that pushed with friction, in arcs or impacts.
-forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
-    By the force of each wrench that was applied, in their order.
+forces, torques : numpy.ndarray, shape (2 n_v, 3 wrenches)
+    By each wrench that was applied, in their order and in the axes that each has.
 smoothness : Smoothness
 impacts : list of ImpactDerivative
 )";
@@ -117,8 +117,8 @@ drestitution : array_like, shape (impacts,), optional
     Of each impact's restitution.
 dfriction : float or array_like, shape (rubbing,)
     Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
-dforces : array_like, shape (wrenches, 3), optional
-    [N] of the force of each wrench that was applied, in their order.
+dforces, dtorques : array_like, shape (wrenches, 3), optional
+    [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 
 )" SALTUS_RETURNS_DIRECTION R"(
 Raises
@@ -171,6 +171,9 @@ springs : dict of str to tuple of float
     By stiffness and length of each spring between two points, by its name.
 dampers : dict of str to float
     By the damping of each damper between two points, likewise.
+placements : dict of str to numpy.ndarray, shape (3,)
+    [1/m] By where the frame of each joint that moves is in its parent link, `X_PJ.p`, by the joint's
+    name; forces that are functions stay as they are. Those of fixed joints are not told.
 )";
 
 constexpr auto model_vjp_doc =
@@ -193,6 +196,51 @@ ModelError
     As `jvp`.
 )";
 
+constexpr auto hvp_doc =
+    R"(The second derivative of a cost of the last step's end along a direction.
+
+What `vjp(q_hat, p_hat)` changes by as the step's inputs move, with q_hat and p_hat held: the product
+of the Hessian of q_hat.q + p_hat.p with a direction, in O(n), to rounding. Of smooth steps, one arc
+without impacts and contacts, and of models without ball and free joints. Needs `record=True`.
+
+Parameters
+----------
+q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+    As in `vjp`.
+dq, dp, du, dqfrc, dh
+    As in `jvp`.
+
+Returns
+-------
+StepDirection
+    Without impacts, frictions and wrenches.
+
+Raises
+------
+ModelError
+    As `jvp`; and names what of the step or the model has no second derivative.
+)";
+
+constexpr auto hessian_doc = R"(The Hessian of a cost of the last step's end, by all directions.
+
+`hvp` for each. Needs `record=True`.
+
+Parameters
+----------
+q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+    As in `vjp`.
+
+Returns
+-------
+numpy.ndarray, shape (2 n_v + n_u + 1, 2 n_v + n_u + 1)
+    By q, p, the controls and the step's duration; symmetric.
+
+Raises
+------
+ModelError
+    As `hvp`.
+)";
+
 constexpr auto directional_doc = R"(The one-sided derivative of the last step along a direction.
 
 Where several contacts close at one instant, a trajectory near by resolves them one after the other,
@@ -200,7 +248,7 @@ in an order that depends on the direction: this takes that order. Else it is `jv
 
 Parameters
 ----------
-dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
+dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces, dtorques
     As in `jvp`.
 
 )" SALTUS_RETURNS_DIRECTION R"(

@@ -14,11 +14,12 @@ struct NamedModelGradient {
   ModelGradient core;
   std::map<std::string, double> restitution, friction, dampers;
   std::map<std::string, std::pair<double, double>> springs;
+  std::map<std::string, Vec3> placements;  ///< of joints that move
 };
 
 /// Without the numbers of pairs that are 0.
 inline NamedModelGradient with_names(const Model& model, ModelGradient&& gradient) {
-  NamedModelGradient out{std::move(gradient), {}, {}, {}, {}};
+  NamedModelGradient out{std::move(gradient), {}, {}, {}, {}, {}};
   const auto& springs = model->mass.potentials.springs;
   for (std::size_t k = 0; k < springs.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
@@ -27,6 +28,10 @@ inline NamedModelGradient with_names(const Model& model, ModelGradient&& gradien
   const auto& dampers = model->forces.dampers;
   for (std::size_t k = 0; k < dampers.size(); ++k) {
     out.dampers[dampers[k].name] = out.core.dampers[static_cast<Eigen::Index>(k)];
+  }
+  for (const JointInfo& joint : model->joints) {
+    if (joint.frames.empty()) continue;
+    out.placements[joint.name] = out.core.placements.row(joint.index).transpose();
   }
   for (const PairGradient& each : out.core.pairs) {
     const std::string name = model.pair_name(each.pair);

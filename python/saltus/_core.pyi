@@ -3954,8 +3954,8 @@ class StepDirection:
         Of each impact's restitution.
     friction : numpy.ndarray, shape (rubbing,)
         Of the coefficient of each pair in `StepDerivative.rubbing`.
-    forces : numpy.ndarray, shape (wrenches, 3)
-        [N] of the force of each wrench that was applied, in their order.
+    forces, torques : numpy.ndarray, shape (wrenches, 3)
+        [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -3975,6 +3975,8 @@ class StepDirection:
     def qfrc(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def restitution(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def torques(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
 
 class ModelGradient:
     """
@@ -4001,6 +4003,9 @@ class ModelGradient:
         By stiffness and length of each spring between two points, by its name.
     dampers : dict of str to float
         By the damping of each damper between two points, likewise.
+    placements : dict of str to numpy.ndarray, shape (3,)
+        [1/m] By where the frame of each joint that moves is in its parent link, `X_PJ.p`, by the joint's
+        name; forces that are functions stay as they are. Those of fixed joints are not told.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -4016,6 +4021,10 @@ class ModelGradient:
     def friction(self) -> dict[str, float]: ...
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def placements(
+        self,
+    ) -> dict[str, typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]]: ...
     @property
     def rest(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
@@ -4105,8 +4114,8 @@ class StepDerivative:
         By the coefficient of friction of each pair in `rubbing`; 0 where it sticks.
     rubbing : list of str
         Names of the pairs that pushed with friction, in arcs or impacts.
-    forces : numpy.ndarray, shape (2 n_v, 3 wrenches)
-        By the force of each wrench that was applied, in their order.
+    forces, torques : numpy.ndarray, shape (2 n_v, 3 wrenches)
+        By each wrench that was applied, in their order and in the axes that each has.
     smoothness : Smoothness
     impacts : list of ImpactDerivative
     """
@@ -4132,6 +4141,8 @@ class StepDerivative:
     def rubbing(self) -> list[str]: ...
     @property
     def smoothness(self) -> Smoothness: ...
+    @property
+    def torques(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
 
 class Stepper:
     """
@@ -4249,6 +4260,7 @@ class Stepper:
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
         dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        dtorques: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4261,7 +4273,7 @@ class Stepper:
 
         Parameters
         ----------
-        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces
+        dq, dp, du, dqfrc, dh, drestitution, dfriction, dforces, dtorques
             As in `jvp`.
 
         Returns
@@ -4273,6 +4285,72 @@ class Stepper:
         ------
         ModelError
             As `jvp`.
+        """
+    def hessian(
+        self,
+        q_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        p_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+    ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        The Hessian of a cost of the last step's end, by all directions.
+
+        `hvp` for each. Needs `record=True`.
+
+        Parameters
+        ----------
+        q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+            As in `vjp`.
+
+        Returns
+        -------
+        numpy.ndarray, shape (2 n_v + n_u + 1, 2 n_v + n_u + 1)
+            By q, p, the controls and the step's duration; symmetric.
+
+        Raises
+        ------
+        ModelError
+            As `hvp`.
+        """
+    def hvp(
+        self,
+        q_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        p_hat: collections.abc.Mapping[str, numpy.typing.ArrayLike] | numpy.typing.ArrayLike | None,
+        dq: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        dp: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        du: typing.Any = None,
+        *,
+        dqfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
+        | numpy.typing.ArrayLike
+        | None = None,
+        dh: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> StepDirection:
+        """
+        The second derivative of a cost of the last step's end along a direction.
+
+        What `vjp(q_hat, p_hat)` changes by as the step's inputs move, with q_hat and p_hat held: the product
+        of the Hessian of q_hat.q + p_hat.p with a direction, in O(n), to rounding. Of smooth steps, one arc
+        without impacts and contacts, and of models without ball and free joints. Needs `record=True`.
+
+        Parameters
+        ----------
+        q_hat, p_hat : mapping of names to values, or array_like, shape (n_v,)
+            As in `vjp`.
+        dq, dp, du, dqfrc, dh
+            As in `jvp`.
+
+        Returns
+        -------
+        StepDirection
+            Without impacts, frictions and wrenches.
+
+        Raises
+        ------
+        ModelError
+            As `jvp`; and names what of the step or the model has no second derivative.
         """
     def jvp(
         self,
@@ -4292,6 +4370,7 @@ class Stepper:
         | None = None,
         dfriction: typing.SupportsFloat | numpy.typing.ArrayLike = 0.0,
         dforces: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
+        dtorques: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
     ) -> tuple[
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
         typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
@@ -4316,8 +4395,8 @@ class Stepper:
             Of each impact's restitution.
         dfriction : float or array_like, shape (rubbing,)
             Of all coefficients of friction alike, or of that of each pair in `StepDerivative.rubbing`.
-        dforces : array_like, shape (wrenches, 3), optional
-            [N] of the force of each wrench that was applied, in their order.
+        dforces, dtorques : array_like, shape (wrenches, 3), optional
+            [N], [N m] of each wrench that was applied, in their order and in the axes that each has.
 
         Returns
         -------
@@ -4665,9 +4744,14 @@ def adjoint(
     qfrc: collections.abc.Mapping[str, numpy.typing.ArrayLike]
     | numpy.typing.ArrayLike
     | None = None,
+    *,
+    every: typing.SupportsInt | typing.SupportsIndex = 1,
+    steps: typing.SupportsInt | typing.SupportsIndex = 0,
+    by_step: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] | None = None,
 ) -> tuple[
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
     typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
@@ -4682,19 +4766,23 @@ def adjoint(
     model : Model
     options : StepOptions
     t : numpy.ndarray, shape (rows,)
-        [s] a row for each step, and one more.
+        [s] of the start, of each so many steps, and of the end.
     q, p, control : numpy.ndarray, shape (rows, n_q), (rows, n_v), (rows, n_u)
     q_hat, p_hat : numpy.ndarray, shape (rows, n_v)
         The cost by each row's state.
     forces : mapping of links' names to Wrench, optional
     qfrc : mapping of names to values, or array_like, shape (n_v,), optional
         What was applied in all steps.
+    every, steps : int
+        Steps from row to row, and of the run; 0: as many as rows make.
+    by_step : numpy.ndarray, shape (steps, n_u), optional
+        The controls of each step, where rows do not tell them.
 
     Returns
     -------
     tuple
-        By the start's q and p (n_v,), by control (steps, n_u) and qfrc (steps, n_v), by forces
-        (steps, 3 wrenches), by h, and a ModelGradient.
+        By the start's q and p (n_v,), by control (rows - 1, n_u), or (steps, n_u), and qfrc
+        (rows - 1, n_v), by forces and torques (rows - 1, 3 wrenches), by h, and a ModelGradient.
 
     Raises
     ------

@@ -189,6 +189,8 @@ def derivatives() -> None:
     stepper = saltus.Stepper(model, h=0.01, record=True)
     stepper.advance(model.state())
     whole: saltus.StepDerivative = stepper.derivative()
+    bent: saltus.StepDirection = stepper.hvp([1.0], [0.0], dp=[1.0])
+    assert stepper.hessian([1.0], [0.0])[0, 1] == bent.q[0]
     covector: saltus.StepDirection = stepper.vjp([1.0], [0.0])
     by_model: saltus.ModelGradient = stepper.model_gradient([1.0], [0.0])
     orders: list[saltus.Selection] = stepper.selections()
@@ -196,6 +198,8 @@ def derivatives() -> None:
     assert whole.smoothness == saltus.Smoothness.smooth
     assert covector.q.shape == by_model.damping.shape == (1,)
     assert whole.rubbing == []
+    assert whole.torques.shape == (2, 0)
+    assert covector.torques.shape == (0, 3)
     assert covector.friction.shape == (0,)
     assert by_model.friction == {}
     assert orders == []
@@ -204,6 +208,8 @@ def derivatives() -> None:
     gradient: saltus.RunGradient = run.gradient([1.0], [0.0])
     assert gradient.q.shape == (1,)
     assert gradient.restitution == gradient.friction == {}
+    assert all(place.shape == (3,) for place in gradient.placements.values())
+    assert gradient.torques == {}
     assert saltus.optimize.Quadratic is not None
     falls = saltus.optimize.orbit(model, model.state(), 3, progress=False)
     assert not falls.converged

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -92,3 +95,112 @@ def test_a_run_of_more_steps_than_tapes_are_kept():
     g = made.gradient([1.0], [0.5])
     # rounding of 5000 steps, and of the power: 5000 eps and some
     np.testing.assert_allclose([g.q[0], g.p[0]], [1.0, 0.5] @ A, rtol=1e-11)
+
+
+def assert_same(g: saltus.RunGradient, full: saltus.RunGradient, rtol: float) -> None:
+    """Compare all but what is by row."""
+    for name in ("q", "p", "inertia", "damping", "actuators", "stiffness", "armature"):
+        x, expected = getattr(g, name), getattr(full, name)
+        np.testing.assert_allclose(x, expected, rtol=0, atol=rtol * np.abs(expected).max())
+    assert g.h == pytest.approx(full.h, rel=rtol)
+    for name, by_e in full.restitution.items():
+        assert g.restitution[name] == pytest.approx(by_e, rel=rtol)
+
+
+def hitting_arm() -> saltus.Model:
+    """Return a driven arm of two links between two walls."""
+    builder = saltus.read_urdf(saltus.scenes.chain(2))
+    builder.add_shape(builder.link_names[-1], saltus.Sphere(0.05), saltus.Pose((0, 0, -0.5)))
+    for name, side in (("left", 1.0), ("right", -1.0)):
+        builder.add_half_space(name, (side, 0, 0), -0.25)
+    for joint in builder.joint_names[-2:]:
+        builder.add_motor(f"motor of {joint}", joint=joint)
+        builder.set_damping(joint, 0.2)
+    return builder.set_default_contact(restitution=0.7, friction=0).build()
+
+
+# 203 steps: the last rows are fewer steps apart
+@pytest.mark.parametrize("every", [2, 7, 50, 203, 500])
+def test_rows_some_steps_apart_have_the_same_gradient(every):
+    model, h, steps = hitting_arm(), 0.01, 203
+    control = np.random.default_rng(3).normal(size=(steps, 2))
+    arguments = {"duration": steps * h, "h": h, "control": control, "progress": False}
+    start = model.state([0.9, 0.3])
+    full, sparse = (
+        saltus.simulate(model, state=start, record_every=k, **arguments) for k in (1, every)
+    )
+    assert len(full.impacts) >= 2
+    parts = -(-steps // every)
+    assert len(sparse) == parts + 1
+    by_q, by_p = np.random.default_rng(4).normal(size=(2, parts + 1, 2))
+    at = np.minimum(np.arange(parts + 1) * every, steps)
+    rows = np.zeros((2, steps + 1, 2))
+    rows[0, at], rows[1, at] = by_q, by_p
+    g, expected = sparse.gradient(by_q, by_p, control=control), full.gradient(*rows)
+    # rounding, where a part starts without the guesses of steps before
+    assert_same(g, expected, 1e-12)
+    np.testing.assert_allclose(g.control, expected.control, atol=1e-12 * abs(g.control).max())
+    sums = np.add.reduceat(expected.qfrc, at[:-1])
+    np.testing.assert_allclose(g.qfrc, sums, atol=1e-12 * np.abs(sums).max())
+
+
+def test_controls_that_are_held_from_row_to_row_need_not_be_told():
+    model, every = arm(NUMBERS), 8
+    arguments = {"duration": 0.64, "h": 0.02, "progress": False}
+
+    def policy(state: saltus.State) -> list[float]:
+        return [0.5 + state.t, -0.3]
+
+    made = saltus.simulate(
+        model, [0.3, -0.2], control=policy, control_every=every, record_every=every, **arguments
+    )
+    g = made.gradient([1.0, -0.5], [0.3, 0.8])
+    assert g.control.shape == (4, 2)
+    held = np.repeat(made.control[:-1], every, axis=0)
+    full = saltus.simulate(model, [0.3, -0.2], control=held, **arguments)
+    expected = full.gradient([1.0, -0.5], [0.3, 0.8])
+    assert_same(g, expected, 1e-12)
+    by_step = expected.control.reshape(4, every, 2).sum(axis=1)
+    np.testing.assert_allclose(g.control, by_step, rtol=1e-12)
+    others = saltus.simulate(model, [0.3, -0.2], control=policy, record_every=every, **arguments)
+    with pytest.raises(saltus.ModelError, match=r"step 7 made again .* control, forces or qfrc"):
+        others.gradient([1.0, -0.5], [0.3, 0.8])
+
+
+def test_rows_that_tell_no_steps():
+    model = arm(NUMBERS)
+    rows = np.zeros((4, 2))
+    made = saltus.Trajectory.from_states(model, [0.0, 0.1, 0.15, 0.5], rows, h=0.05)
+    with pytest.raises(saltus.ModelError, match="not as many steps apart; derivatives need rows"):
+        made.gradient([1.0, 0.0], [0.0, 0.0])
+    made = run(model)
+    with pytest.raises(saltus.ModelError, match="control is 3 by 2; it is 15 by 2, a row for each"):
+        made.gradient([1.0, 0.0], [0.0, 0.0], control=np.zeros((3, 2)))
+
+
+def test_more_steps_between_two_rows_than_tapes_are_kept():
+    model, steps, h = cart(5.0, 0.3), 10_000, 0.002
+    arguments = {"duration": steps * h, "h": h, "control": [0.7], "progress": False}
+    full, ends = (saltus.simulate(model, [0.3], record_every=k, **arguments) for k in (1, steps))
+    assert len(ends) == 2
+    assert_same(ends.gradient([1.0], [0.5]), full.gradient([1.0], [0.5]), 1e-12)
+
+
+LONG = """
+import resource, saltus
+model = saltus.load_urdf(saltus.scenes.chain(2))
+arguments = dict(h=1e-3, record_every=20000, progress=False)
+short = saltus.simulate(model, [0.1, 0.2], duration=1e-3 * 20000, **arguments)
+short.gradient([1.0, 0.0], [0.0, 0.0])
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+run = saltus.simulate(model, [0.1, 0.2], duration=1e-3 * 200000, **arguments)
+run.gradient([1.0, 0.0], [0.0, 0.0])
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+"""
+
+
+def test_a_long_run_takes_no_more_memory_than_a_short_one():
+    told = subprocess.run(  # in its own process: memory that others took is no matter
+        [sys.executable, "-c", LONG], check=True, capture_output=True, text=True
+    )
+    assert int(told.stdout) < 2000  # kB, of ten times the steps; tapes of all would be 480 MB

@@ -232,11 +232,6 @@ def test_what_is_not_differentiated_is_named():
         with pytest.raises(saltus.ModelError, match=words):  # and again: nothing half done is left
             stepper.vjp(np.zeros(model.n_v), np.zeros(model.n_v))
 
-    arm = saltus.load_urdf(saltus.scenes.chain(1))
-    link = arm.links[-1].name
-    torque = {link: saltus.Wrench(torque=(0, 1, 0))}
-    refused(arm, arm.state(), "torque", forces=torque)
-
     def law(problem):
         return problem.p - 2 * problem.N.T @ np.linalg.solve(
             problem.N @ np.linalg.solve(problem.M, problem.N.T), problem.u
@@ -244,6 +239,7 @@ def test_what_is_not_differentiated_is_named():
 
     model = ball_above_floor(CASES["bouncing_ball"])
     refused(model, saltus.State(0.0, [0.101], [-3.0]), "law of your own", law=law)
+    refused(model, saltus.State(0.0, [0.101], [-3.0]), "law compensated", law="compensated")
 
 
 def test_forces_that_are_functions_tell_their_slopes_and_no_time():

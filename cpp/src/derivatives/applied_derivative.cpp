@@ -1,29 +1,72 @@
 #include "derivatives/applied_derivative.hpp"
 
+#include "derivatives/placed_numbers.hpp"
 #include "lagrangian/packed/potentials.hpp"
 
 namespace saltus {
 namespace {
 
-Vec3 point_of(const ModelData& model, const Packed& w, const AppliedWrench& at_body) {
-  const int slot = model.packed.slot[static_cast<std::size_t>(at_body.joint)];
-  Mat3 R;
-  for (int c = 0; c < 3; ++c) R.col(c) = three(at(w.R, slot) + 3 * c * lanes);
-  return three(at(w.p, slot)) + R * at_body.point_J;
+/// Where a wrench acts from O, the axes that it is told in, and those of derivatives by it.
+struct Place {
+  Vec3 P;
+  Mat3 R, along;
+};
+
+Place place_of(const ModelData& model, const Packed& w, const AppliedWrench& wrench) {
+  const int slot = model.packed.slot[static_cast<std::size_t>(wrench.joint)];
+  const Mat3 R = rotation_of(w, slot);
+  const Vec3 P = position_of(w, slot) + R * wrench.point_J;
+  if (!wrench.in_body) return {P, Mat3::Identity(), Mat3::Identity()};
+  return {P, R, R * wrench.axes};
 }
 
-/// Calls f(velocity, dP/dq of it) for the joints above the point.
+/// Calls f(joint, move, turn) for the joints above P: what a unit of the velocity moves P by, and
+/// turns the body.
 template <class F>
-void for_each_mover(const ModelData& model, const Packed& w, const AppliedWrench& at_body,
-                    const F& f) {
-  if (at_body.joint < 0) return;
-  const Vec3 P = point_of(model, w, at_body);
-  for (int i = at_body.joint; i >= 0; i = model.tree.parent[i]) {
-    const double* S = at(w.S_W, model.packed.slot[i]);
-    const Vec3 move = three(S + 3 * lanes) + three(S).cross(P);
-    const Drive& drive = model.tree.drive[i];
-    f(drive.velocity, Vec3(drive.multiplier * move));
+void for_each_mover(const ModelData& model, const Packed& w, int joint, const Vec3& P, const F& f) {
+  for (int i = joint; i >= 0; i = model.tree.parent[i]) {
+    const Vec6 S = six(at(w.S_W, model.packed.slot[i]));
+    const double k = model.tree.drive[i].multiplier;
+    f(i, Vec3(k * velocity_at(S, P)), Vec3(k * angular(S)));
   }
+}
+
+int velocity_of(const ModelData& model, int joint) { return model.tree.drive[joint].velocity; }
+
+/// Columns that a wrench needs: of what a torque does as joints above turn those below it, one for
+/// each of these, and three each of a force and of a torque that turn with the body.
+Eigen::Index columns_of(const ModelData& model, const AppliedWrench& wrench) {
+  Eigen::Index out = 0;
+  if (!wrench.torque.isZero(0)) {
+    for (int i = wrench.joint; i >= 0; i = model.tree.parent[i]) ++out;
+    if (wrench.in_body) out += 3;
+  }
+  return out + (wrench.in_body && !wrench.force.isZero(0) ? 3 : 0);
+}
+
+/// dQ_k = n.(a_j x a_k) dq_j of the joints j that turn k.
+void add_turned_axes(const ModelData& model, const Packed& w, int joint, const Vec3& torque,
+                     Eigen::Index& column, Packed& to) {
+  const Vec3 none = Vec3::Zero();
+  for_each_mover(model, w, joint, none, [&](int k, const Vec3&, const Vec3& turn_k) {
+    to.coupled(velocity_of(model, k), column) = 1;
+    for_each_mover(model, w, k, none, [&](int j, const Vec3&, const Vec3& turn_j) {
+      if (j == k || are_of_one_ball(model.tree, j, k)) return;
+      to.coupled_q(velocity_of(model, j), column) += torque.dot(turn_j.cross(turn_k));
+    });
+    ++column;
+  });
+}
+
+/// dQ = J^T (a_j x f) dq_j of a vector f that turns with the body; J of its point, or of its turn.
+void add_turned_vector(const ModelData& model, const Packed& w, int joint, const Vec3& P,
+                       const Vec3& f, bool is_force, Eigen::Index& column, Packed& to) {
+  for_each_mover(model, w, joint, P, [&](int i, const Vec3& move, const Vec3& turn) {
+    const int c = velocity_of(model, i);
+    to.coupled.row(c).segment<3>(column) += (is_force ? move : turn).transpose();
+    to.coupled_q.row(c).segment<3>(column) += turn.cross(f).transpose();
+  });
+  column += 3;
 }
 
 /// Q.(J_a - J_b)^T n.
@@ -37,16 +80,56 @@ double along(const Packed& w, const PackedPoint& a, const Vec3& P_a, const Packe
 
 }  // namespace
 
-void add_push(const ModelData& model, const Packed& w, const AppliedWrench& at_body,
-              const Vec3& force, VecX& Q) {
-  for_each_mover(model, w, at_body, [&](int c, const Vec3& move) { Q[c] += move.dot(force); });
+void add_push(const ModelData& model, const Packed& w, const AppliedWrench& wrench,
+              const Vec3& force, const Vec3& torque, VecX& Q) {
+  if (wrench.joint < 0) return;
+  const Place at = place_of(model, w, wrench);
+  for_each_mover(model, w, wrench.joint, at.P, [&](int i, const Vec3& move, const Vec3& turn) {
+    Q[velocity_of(model, i)] += move.dot(at.along * force) + turn.dot(at.along * torque);
+  });
 }
 
-Vec3 pull_push(const ModelData& model, const Packed& w, const AppliedWrench& at_body,
-               const VecX& Q) {
-  Vec3 out = Vec3::Zero();
-  for_each_mover(model, w, at_body, [&](int c, const Vec3& move) { out += Q[c] * move; });
-  return out;
+PulledWrench pull_push(const ModelData& model, const Packed& w, const AppliedWrench& wrench,
+                       const VecX& Q) {
+  PulledWrench out{Vec3::Zero(), Vec3::Zero()};
+  if (wrench.joint < 0) return out;
+  const Place at = place_of(model, w, wrench);
+  for_each_mover(model, w, wrench.joint, at.P, [&](int i, const Vec3& move, const Vec3& turn) {
+    out.force += Q[velocity_of(model, i)] * move;
+    out.torque += Q[velocity_of(model, i)] * turn;
+  });
+  return {at.along.transpose() * out.force, at.along.transpose() * out.torque};
+}
+
+void add_wrench_slopes(const ModelData& model, const std::vector<AppliedWrench>& wrenches,
+                       Eigen::Index own, Packed& w) {
+  Eigen::Index column = own, columns = own;
+  for (const AppliedWrench& each : wrenches) columns += columns_of(model, each);
+  if (columns == w.coupled.cols() && columns == own) return;
+  for (MatX* each : {&w.coupled, &w.coupled_q, &w.coupled_v}) {
+    each->conservativeResize(model.tree.n_v, columns);
+    each->rightCols(columns - own).setZero();
+  }
+  for (const AppliedWrench& each : wrenches) {
+    if (each.joint < 0 || columns_of(model, each) == 0) continue;
+    const Place at = place_of(model, w, each);
+    const Vec3 force = at.R * each.force, torque = at.R * each.torque;
+    if (!torque.isZero(0)) {
+      add_turned_axes(model, w, each.joint, torque, column, w);
+      if (each.in_body) {
+        add_turned_vector(model, w, each.joint, at.P, torque, false, column, w);
+      }
+    }
+    if (!each.in_body || force.isZero(0)) continue;
+    add_turned_vector(model, w, each.joint, at.P, force, true, column, w);
+    // what the point's own motion does, as of a force in the world's axes (packed_point.hpp)
+    for_each_mover(model, w, each.joint, at.P, [&](int i, const Vec3&, const Vec3&) {
+      const int slot = model.packed.slot[i];
+      const Vec3 G = velocity_at(six(saltus::at(w.S_W, slot)), at.P).cross(force);
+      double* to = saltus::at(w.U_F_G, slot) + 12 * lanes;
+      for (int c = 0; c < 3; ++c) to[c * lanes] += G[c];
+    });
+  }
 }
 
 void add_spring_gradient(const ModelData& model, const ArcDerivative& arc, const VecX& Q,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "derivatives/applied_derivative.hpp"
 #include "saltus/force/control_slopes.hpp"
 #include "variational/arc/arc_forces.hpp"
 
@@ -13,12 +14,8 @@ namespace {
                    why);
 }
 
-/// Forces whose slopes Newton's matrix has in part only.
-void check_forces(const ModelData& model, const ForceInput& input, const ArcScratch& s) {
-  for (const AppliedWrench& wrench : input.wrenches) {
-    if (wrench.torque.isZero(0) && !wrench.in_body) continue;
-    refuse("a torque on a link, or a force in its axes", "forces in the world's axes have one");
-  }
+/// Forces whose slopes nobody tells.
+void check_forces(const ModelData& model, const ArcScratch& s) {
   for (std::size_t k = 0; k < s.forces.answers.size(); ++k) {
     if (s.forces.answers[k].Q_q.size() > 0 && s.forces.answers[k].Q_v.size() > 0) continue;
     const std::string& name = model.forces.functions[k].name;
@@ -88,6 +85,12 @@ void set_energy(const ModelData& model, const Tape& tape, ArcDerivative& out) {
   gather(model.tree, model.packed, out.s.w.first, 0, out.energy_v);
 }
 
+/// Of w.coupled, those that prepare_forces made.
+Eigen::Index own_columns(const ModelData& model, const ArcScratch& s) {
+  if (!model.forces.acts()) return model.packed.columns;
+  return model.packed.columns + s.forces.coupled.cols() + model.forces.n_columns();
+}
+
 /// @param keeps_factors of an evaluation before at the same q and tau = 0, whatever its v
 void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q, const VecX& p,
               bool keeps_factors, ArcDerivative& out) {
@@ -97,13 +100,14 @@ void evaluate(const ModelData& model, const Tape& tape, double t, const VecX& q,
   const ArcProblem problem{q, p, out.tau, nullptr, 0, t, nullptr};
   const double residual = momentum_residual(model, problem, out.v, s);
   set_second_partials(model, s);
+  add_wrench_slopes(model, tape.input.wrenches, own_columns(model, s), s.w);
   take_generators(model.tree, model.packed, s.w, out.product);
   const bool is_regular = keeps_factors || factorize(model.tree, model.packed, s.w, out.tau, s.J);
   if (!std::isfinite(residual) || !is_regular) {
     throw StepError("the arc at t = " + std::to_string(t) + " s has no derivative: it is singular",
                     t, residual, 0);
   }
-  if (s.has_forces) check_forces(model, tape.input, s);
+  if (s.has_forces) check_forces(model, s);
   out.force = s.L_q;
 }
 

@@ -24,6 +24,7 @@ Eigen::Index count_of(const ModelData& model, const Tape& tape, Input input,
     case Input::friction:
       return static_cast<Eigen::Index>(program.friction.pairs.size());
     case Input::forces:
+    case Input::torques:
       break;
   }
   return static_cast<Eigen::Index>(3 * tape.input.wrenches.size());
@@ -37,9 +38,10 @@ StepDirection unit_of(Input input, Eigen::Index columns, Eigen::Index c) {
   if (input == Input::qfrc) by.qfrc = unit;
   if (input == Input::restitution) by.restitution = unit;
   if (input == Input::friction) by.friction = unit;
-  if (input == Input::forces) {
-    by.forces.setZero(columns / 3, 3);
-    by.forces(c / 3, c % 3) = 1;
+  if (input == Input::forces || input == Input::torques) {
+    MatX& to = input == Input::forces ? by.forces : by.torques;
+    to.setZero(columns / 3, 3);
+    to(c / 3, c % 3) = 1;
   }
   return by;
 }
@@ -49,14 +51,15 @@ MatX forces_of(const ModelData& model, const Tape& tape, Input input, const Flow
   const Eigen::Index n = model.tree.n_v;
   if (input == Input::control) return arc.arc.Q_u;
   if (input == Input::qfrc) return MatX::Identity(n, n);
-  if (input != Input::forces || tape.input.wrenches.empty()) return {};
+  const bool is_force = input == Input::forces;
+  if ((!is_force && input != Input::torques) || tape.input.wrenches.empty()) return {};
   MatX out(n, 3 * tape.input.wrenches.size());
   VecX column;
   for (Eigen::Index c = 0; c < out.cols(); ++c) {
-    const Vec3 unit = Vec3::Unit(c % 3);
+    const Vec3 unit = Vec3::Unit(c % 3), none = Vec3::Zero();
     column.setZero(n);
-    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(c / 3)], unit,
-             column);
+    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(c / 3)],
+             is_force ? unit : none, is_force ? none : unit, column);
     out.col(c) = column;
   }
   return out;

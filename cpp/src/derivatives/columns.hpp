@@ -7,7 +7,7 @@
 namespace saltus {
 
 /// By what the columns are: one a number of it.
-enum class Input { state, control, qfrc, restitution, friction, forces };
+enum class Input { state, control, qfrc, restitution, friction, forces, torques };
 
 /// Z <- (2 n_v, columns) what the state at the step's end changes by; of the state q, then p.
 void push_columns(const ModelData& model, const Tape& tape, Input input, StepProgram& program,

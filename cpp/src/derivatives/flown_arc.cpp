@@ -1,5 +1,5 @@
 // An arc with what held it, forwards and backwards.
-#include "derivatives/held_derivative.hpp"
+#include "derivatives/contact_placements.hpp"
 
 namespace saltus {
 namespace {
@@ -80,7 +80,7 @@ double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z, 
   VecX extra, residual, of_rates;
   pull_kick(flown.kick, VecX(), z, extra, residual, friction);
   if (to != nullptr && residual.size() > 0) {
-    add_kick_gradient(model, flown.node->q, flown.kick, residual, flown.node->w, *to);
+    add_kick_gradient(model, flown.node->q, flown.kick, residual, z.p, flown.node->w, *to);
   }
   ArcDerivative& arc = flown.arc;
   double of_tau = 0;
@@ -102,6 +102,7 @@ double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z, 
   if (held.rubs.size() > 0) of_tau += held.rubs.dot(z.p);
   if (to != nullptr) add_arc_gradient(model, arc, Q, *to);
   if (held.size() == 0) return of_tau;
+  if (to != nullptr) add_held_placements(model, flown, z.p, of_rates, to->placement);
   z.q += held.G_0 * of_rates;
   for (Eigen::Index c = 0; c < held.size(); ++c) {
     const auto k = static_cast<std::size_t>(held.contact_of[static_cast<std::size_t>(c)]);
@@ -111,14 +112,14 @@ double pull_flown(const ModelData& model, FlownArc& flown, VecX& Q, Tangent& z, 
 }
 
 void add_kick_gradient(const ModelData& model, const VecX& q, const KickDerivative& kick,
-                       const VecX& residual, Packed& w, ParameterGradient& to) {
+                       const VecX& residual, const VecX& p_hat, Packed& w, ParameterGradient& to) {
   set_coordinates(model.tree, model.packed, q, w);
   set_rates(model.tree, model.packed, kick.v, w);
   place(model.packed, w);
   move(model.packed, w);
   first_pass(model.packed, w);
-  const VecX none = VecX::Zero(model.tree.n_v), y = kick.of_p * residual;
-  add_gradient(model, w, none, y, 1, to);
+  add_node_gradient(model, w, kick.of_p * residual, 1, to);
+  add_kick_placements(model, q, kick, residual, p_hat, to.placement);
 }
 
 }  // namespace saltus

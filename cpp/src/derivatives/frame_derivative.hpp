@@ -42,4 +42,15 @@ void add_row_change(const FrameDerivative& frame, int i, const VecX& dq, double 
 void add_row_covector(const FrameDerivative& frame, int i, const VecX& row_hat, double factor,
                       VecX& q);
 
+/// Covectors of rows n, t0, t1, and of motions of a against b along them.
+struct RowCovectors {
+  std::array<VecX, 3> row;     ///< (n_v) or empty: 0
+  Vec3 motion = Vec3::Zero();  ///< [1/m]
+};
+
+/// Adds what steps of joints' placements, in the axes of their parents, make of both: to (joints of
+/// the tree, 3). Such a step moves what is beyond the joint, as a screw that does not turn.
+void add_row_placements(const ModelData& model, const Kinematics& kin, const Pair& pair,
+                        const FrameChoice& choice, const RowCovectors& hat, MatX& to);
+
 }  // namespace saltus

@@ -110,7 +110,7 @@ double pull_friction(const ModelData& model, const FrictionDerivative& impulse,
   VecX extra, residual, of_P;
   double of_e = 0;
   const auto add = [&](const KickDerivative& kick) {
-    if (to != nullptr) add_kick_gradient(model, node.q, kick, residual, node.w, *to);
+    if (to != nullptr) add_kick_gradient(model, node.q, kick, residual, z.p, node.w, *to);
   };
   if (impulse.expansion.size() > 0) {
     pull_kick(impulse.expansion, VecX(), z, extra, residual, friction);

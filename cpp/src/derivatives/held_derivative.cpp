@@ -2,35 +2,20 @@
 
 #include <Eigen/QR>
 
+#include "derivatives/held_rows.hpp"
+#include "derivatives/loop_rows.hpp"
+
 namespace saltus {
 namespace {
 
 using Mode = KickContact::Mode;
 using Vec2 = Eigen::Vector2d;
 
-int rates_of(const TapeRow& row) { return row.friction > 0 ? 3 : 1; }
-
-const Pair& watched(const TapeRow& row, const Pair& pair) {
-  return row.is_frozen ? row.frozen : pair;
-}
-
 /// Rates of one contact that an arc holds.
 struct Slip {
   std::array<VecX, 2> by_v, by_m, by_end, by_start;
   Vec2 value = Vec2::Zero();
 };
-
-struct Places {
-  Kinematics start, middle, end;
-};
-
-FrameChoice choice_of(const TapeRow& row, bool at_a) {
-  FrameChoice out;
-  out.axis = row.is_frozen ? -1 : row.axis;
-  out.t_B = row.t_B;
-  out.at_a = at_a;
-  return out;
-}
 
 /// Of a corner: its chord, on a plane and along axes that are fixed in b.
 Slip slip_of_point(const ModelData& model, const Places& at, const TapeRow& row) {
@@ -75,6 +60,12 @@ Vec2 add_rates(const ModelData& model, const Places& places, const TapeRow& row,
   if (row.joint >= 0) {
     held.G_v(row.joint, at) = 1;
     if (row.slides) held.rubs[row.joint] += row.P[0] / arc.tau;
+    return Vec2::Zero();
+  }
+  if (row.loop >= 0) {
+    FrameDerivative end;
+    set_loop_row(model, places.end, row.loop, end);
+    held.G_q.col(at) = end.row[0];
     return Vec2::Zero();
   }
   const Pair pair = pair_of(model, row.pair);
@@ -135,12 +126,6 @@ void list_rows(const TapeArc& told, HeldArc& held) {
   held.P = Eigen::Map<const VecX>(P.data(), static_cast<Eigen::Index>(P.size()));
 }
 
-void place(const ModelData& model, const TapeArc& told, const ArcDerivative& arc, Places& out) {
-  set_configuration(model.tree, told.q, out.start);
-  set_configuration(model.tree, arc.s.q, out.middle);  // where it was evaluated
-  set_configuration(model.tree, told.q_end, out.end);
-}
-
 /// R, and W.
 MatX set_answers(const ModelData& model, ArcDerivative& arc, HeldArc& held) {
   const Eigen::Index N = held.size();
@@ -189,8 +174,7 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
   for (MatX* each : {&held.R_q, &held.R_p, &held.G_q, &held.G_v, &held.G_m, &held.G_0}) {
     each->setZero(model.tree.n_v, N);
   }
-  Places places{Kinematics(model.tree), Kinematics(model.tree), Kinematics(model.tree)};
-  place(model, told, out.arc, places);
+  const Places places = places_of(model, told, out.arc);
   held.frames.resize(static_cast<std::size_t>(told.n_held));
   std::vector<Vec2> slips;
   Eigen::Index at = 0;
@@ -199,6 +183,8 @@ void set_held_arc(const ModelData& model, const TapeArc& told, FlownArc& out) {
     FrameDerivative& frame = held.frames[static_cast<std::size_t>(k)];
     if (row.joint >= 0) {
       set_joint_frame(model, row.joint, frame);
+    } else if (row.loop >= 0) {
+      set_loop_row(model, places.start, row.loop, frame);
     } else {
       const Pair pair = pair_of(model, row.pair);
       const bool at_a = pair.on_b.joint < 0;  // friction_point
@@ -246,8 +232,9 @@ void set_closing_kick(const ModelData& model, const Tape& tape, const TapeArc& t
 KickContact contact_of(const ModelData& model, const TapeRow& row) {
   KickContact out;
   out.joint = row.joint;
+  out.loop = row.loop;
   out.P = row.P;
-  if (row.joint >= 0) return out;
+  if (row.joint >= 0 || row.loop >= 0) return out;
   out.number = row.pair;
   out.pair = row.is_frozen ? row.frozen : pair_of(model, row.pair);
   out.frame = choice_of(row, false);
@@ -257,6 +244,7 @@ KickContact contact_of(const ModelData& model, const TapeRow& row) {
 }
 
 void set_flown_arc(const ModelData& model, const Tape& tape, const TapeArc& told, FlownArc& out) {
+  out.told = &told;
   out.has_dense = false;
   set_arc_derivative(model, tape, told, out.arc);
   set_match(model, tape, told, out.arc, out.match);

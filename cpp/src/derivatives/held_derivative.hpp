@@ -36,6 +36,7 @@ struct HeldArc {
 /// An arc with what held it, and the kick at its end.
 struct FlownArc {
   explicit FlownArc(const ModelData& model) : arc(model) {}
+  const TapeArc* told = nullptr;  ///< of the tape that it was set from
   ArcDerivative arc;
   MatchDerivative match;
   HeldArc held;
@@ -69,8 +70,9 @@ double pull_flown(const ModelData& model, FlownArc& arc, VecX& Q, Tangent& z, Ru
 /// Of contacts that the tape tells.
 KickContact contact_of(const ModelData& model, const TapeRow& row);
 
-/// What a kick adds by the inertias that it meets; w is scratch.
+/// What a kick adds by the inertias and placements that it meets, pulled back to p_hat; w is
+/// scratch.
 void add_kick_gradient(const ModelData& model, const VecX& q, const KickDerivative& kick,
-                       const VecX& residual, Packed& w, ParameterGradient& to);
+                       const VecX& residual, const VecX& p_hat, Packed& w, ParameterGradient& to);
 
 }  // namespace saltus

@@ -84,9 +84,23 @@ double closing_of(const ModelData& model, const GapDerivative& gap, NodeDerivati
   return gap.n.dot(a) + motion.y.dot(motion.v);
 }
 
+namespace {
+
+/// The lock that prescribed joints have in M moves as they are told: it is none of p.
+void add_locked(const ModelData& model, double t, const VecX& lock, VecX& p) {
+  for (const Equality& e : model.equalities.all) {
+    if (e.type != LoopType::prescribed) continue;
+    const Drive& drive = model.tree.drive[e.a.joint];
+    p[drive.velocity] += lock[drive.velocity] * e.motion(t).rate / drive.multiplier;
+  }
+}
+
+}  // namespace
+
 void set_flow(const ModelData& model, const Tape& tape, const VecX& p, NodeDerivative& node,
               Tangent& flow) {
   node.v = p;
+  add_locked(model, node.t, node.motion.s.J.lock, node.v);
   solve_scaled(model.tree, model.packed, node.motion.s.J, node.v);
   set_node_derivative(model, tape, node.t, node.q, node.v, node.motion, true);
   flow.q = node.v;

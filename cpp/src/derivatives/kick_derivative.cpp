@@ -2,6 +2,8 @@
 
 #include <Eigen/QR>
 
+#include "derivatives/loop_rows.hpp"
+
 namespace saltus {
 namespace {
 
@@ -191,6 +193,8 @@ void set_kick(const ModelData& model, const VecX& q, ArcDerivative& motion, Kick
     const KickContact& contact = out.contacts[k];
     if (contact.joint >= 0) {
       set_joint_frame(model, contact.joint, out.frames[k]);
+    } else if (contact.loop >= 0) {
+      set_loop_row(model, kin, contact.loop, out.frames[k]);
     } else {
       set_frame(model, kin, contact.pair, contact.frame, out.frames[k]);
     }

@@ -22,6 +22,7 @@ namespace saltus {
 /// A contact that pushes in a kick.
 struct KickContact {
   int joint = -1;   ///< velocity of a joint with dry friction, in place of a pair
+  int loop = -1;    ///< row of the equalities, likewise
   int number = -1;  ///< of the pair
   Pair pair;
   FrameChoice frame;

@@ -5,32 +5,12 @@
 #include <map>
 
 #include "derivatives/applied_derivative.hpp"
+#include "derivatives/placed_numbers.hpp"
 
 namespace saltus {
 namespace {
 
 using Strided6 = Eigen::Map<const Vec6, 0, Eigen::InnerStride<lanes>>;
-
-Mat3 rotation_of(const Packed& w, int slot) {
-  Mat3 R;
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) R(r, c) = at(w.R, slot)[(3 * c + r) * lanes];
-  }
-  return R;
-}
-
-Vec3 position_of(const Packed& w, int slot) {
-  const double* p = at(w.p, slot);
-  return {p[0], p[lanes], p[2 * lanes]};
-}
-
-/// A twist about O as that of the joint's origin, in the joint's frame: (turn, move).
-Vec6 in_joint(const Mat3& R, const Vec3& p, const Vec6& twist) {
-  Vec6 out;
-  out << R.transpose() * twist.head<3>(),
-      R.transpose() * (twist.tail<3>() + twist.head<3>().cross(p));
-  return out;
-}
 
 using Ten = Eigen::Matrix<double, 10, 1>;
 
@@ -107,6 +87,7 @@ void ParameterGradient::start(const ModelData& model) {
   dampers.setZero(static_cast<Eigen::Index>(model.forces.dampers.size()));
   restitution.clear();
   for (auto* each : {&twist, &turn}) each->resize(static_cast<std::size_t>(model.tree.joints()));
+  placement.start(model);
 }
 
 void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
@@ -135,12 +116,20 @@ void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const 
   add_own_gradient(model, w, x, y, factor, to);
 }
 
+void add_node_gradient(const ModelData& model, const Packed& w, const VecX& y, double factor,
+                       ParameterGradient& to) {
+  const VecX none = VecX::Zero(model.tree.n_v);
+  add_gradient(model, w, none, y, factor, to);
+  add_placements(model, w, none, y, factor, to.placement);
+}
+
 void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const VecX& Q,
                       ParameterGradient& to) {
   add_gradient(model, arc.s.w, Q, arc.of_L_v, 1, to);
   to.damping -= arc.v.cwiseProduct(Q);
   add_actuators(model.forces, arc, Q, to);
   add_spring_gradient(model, arc, Q, to);
+  add_arc_placements(model, arc, Q, to.placement);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);

@@ -1,4 +1,5 @@
-// Gradients by what a model is made of: inertias of links, springs, damping, armature, actuators.
+// Gradients by what a model is made of: inertias of links, springs, damping, armature, actuators,
+// placements of joints (placements.hpp).
 //
 // L is linear in each body's ten inertial parameters (m, h = m c, I about the joint's origin). In a
 // joint's frame, with its twist (v, w) and a change of q along x and of v along y,
@@ -11,7 +12,7 @@
 
 #include <utility>
 
-#include "derivatives/arc_derivative.hpp"
+#include "derivatives/placements.hpp"
 #include "derivatives/rubbing.hpp"
 #include "saltus/derivatives/step_derivative.hpp"
 
@@ -24,6 +25,7 @@ struct ParameterGradient {
   MatX actuators;                           ///< (n_u, 4): gain, bias, bias_l, bias_v
   MatX springs;                             ///< (springs between points, 2): stiffness, length
   VecX dampers;                             ///< (dampers between points)
+  PlacementGradient placement;
   /// Pair and its number, as they come: by restitution of each impulse.
   std::vector<std::pair<int, double>> restitution;
 
@@ -32,9 +34,13 @@ struct ParameterGradient {
   void start(const ModelData& model);
 };
 
-/// to += factor (what the parameters make of x.L_q + y.L_v) at w.
+/// to += factor (what all but placements make of x.L_q + y.L_v) at w.
 void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
                   double factor, ParameterGradient& to);
+
+/// to += factor (what all this makes of y.L_v) at w.
+void add_node_gradient(const ModelData& model, const Packed& w, const VecX& y, double factor,
+                       ParameterGradient& to);
 
 /// Of an arc that has just been pulled back, with what that added to Q.
 void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const VecX& Q,

@@ -30,10 +30,21 @@ void set_arrival(const ModelData& model, FlownArc& arc, const VecX& zero, Tangen
   push_flown(model, arc, zero, 1, {}, b);
 }
 
-/// A force that is a function of time has a derivative by time that nobody tells.
+/// A force that is a function of time has a derivative by time that nobody tells. Of what is
+/// prescribed the acceleration may be told; nothing here asks for it.
 void note_time(const ModelData& model, StepProgram& program) {
   program.tells_time = model.forces.functions.empty();
-  if (!program.tells_time) program.timed = model.forces.functions.front().name;
+  if (!program.tells_time) {
+    program.timed_kind = "force";
+    program.timed = model.forces.functions.front().name;
+    return;
+  }
+  for (const Equality& e : model.equalities.all) {
+    if (e.type != LoopType::prescribed) continue;
+    program.tells_time = false;
+    program.timed_kind = "joint";
+    program.timed = e.name;
+  }
 }
 
 /// The impulses told are those that the step made.
@@ -124,9 +135,10 @@ void add_passing(const ModelData& model, const TapeArc& arc, FlownArc& arrival,
                  StepProgram& program) {
   program.pieces.push_back({Kind::pass, program.n_passings, 0});
   Passing& to = next_passing(program);
-  Kinematics kin(model.tree);
-  set_configuration(model.tree, arc.q_end, kin);
-  set_gap_derivative(model, kin, arc.pair, to.gap);
+  to.pair = arc.pair;
+  to.kin = Kinematics(model.tree);
+  set_configuration(model.tree, arc.q_end, to.kin);
+  set_gap_derivative(model, to.kin, arc.pair, to.gap);
   set_arrival(model, arrival, program.zero, to.arrival);
   to.slope = to.gap.n.dot(to.arrival.q);
 }
@@ -176,9 +188,11 @@ void set_motion(const ModelData& model, const Tape& tape, StepProgram& program) 
 
 void check_time(const StepProgram& program, const std::string& what) {
   if (program.tells_time) return;
-  throw ModelError("the step has no derivative " + what + ": force \"" + program.timed +
-                       "\" may be a function of time, and does not tell its derivative by it",
-                   "force", program.timed);
+  const std::string is =
+      program.timed_kind == "force" ? "may be a function of time" : "moves as it is told";
+  throw ModelError("the step has no derivative " + what + ": " + program.timed_kind + " \"" +
+                       program.timed + "\" " + is + ", and does not tell its derivative by it",
+                   program.timed_kind, program.timed);
 }
 
 void set_impulses(const ModelData& model, const Tape& tape, const std::vector<int>& contacts,

@@ -25,6 +25,8 @@ struct ImpactPieces {
 
 /// An arc that a gap ends without an impact.
 struct Passing {
+  int pair = -1;
+  Kinematics kin;
   GapDerivative gap;
   Tangent arrival;
   double slope = 0;
@@ -50,14 +52,14 @@ struct StepProgram {
   std::vector<Passing> passings;
   int n_arcs = 0, n_impacts = 0, n_passings = 0;
 
-  bool has_rest = false;   ///< time may be left at the end, along
-  bool has_match = false;  ///< an arc meets an energy
-  EnergyGradient start;    ///< of the energy that is matched; empty where none is
-  Tangent motion;          ///< (v, f) there
-  bool tells_time = true;  ///< no force is a function of time whose derivative is not told
-  std::string timed;       ///< the name of one that is
-  Rubbing friction;        ///< of the pairs that rub
-  VecX dQ, zero;           ///< scratch
+  bool has_rest = false;          ///< time may be left at the end, along
+  bool has_match = false;         ///< an arc meets an energy
+  EnergyGradient start;           ///< of the energy that is matched; empty where none is
+  Tangent motion;                 ///< (v, f) there
+  bool tells_time = true;         ///< no force is a function of time whose derivative is not told
+  std::string timed_kind, timed;  ///< "force" or "joint", and the name of one that is
+  Rubbing friction;               ///< of the pairs that rub
+  VecX dQ, zero;                  ///< scratch
 };
 
 /// @throws ModelError as StepDerivatives::linearize

@@ -1,40 +1,9 @@
-#include "saltus/derivatives/step_derivative.hpp"
-
 #include <limits>
 
-#include "derivatives/columns.hpp"
+#include "derivatives/step_impl.hpp"
 #include "derivatives/verdict.hpp"
 
 namespace saltus {
-
-struct StepDerivatives::Impl {
-  Impl(const Model& with, const StepOptions& with_options)
-      : shared(with_options.collisions ? with : with.without_collisions()),
-        options(with_options),
-        model(*shared),
-        dense(model) {}
-
-  void check(const StepDirection& d) const;
-  void need_step() const;
-  /// By a law that matches energies: the impulses of other orders are not made.
-  bool is_matched() const { return program.start.q.size() > 0 || program.has_match; }
-  void need_orders() const;
-  Tangent push(const StepDirection& by, Order order = Order::own);
-  StepDirection pull(const StateDirection& covector, bool with_parameters);
-  void set_columns(Input input, MatX& out);
-  double spread(const MatX& A, std::size_t impact, Smoothness& verdict);
-  bool is_at_edge() const;
-  void judge(StepDerivative& out);
-
-  Model shared;
-  StepOptions options;
-  const ModelData& model;
-  Tape tape;
-  StepProgram program;
-  DenseScratch dense;
-  ParameterGradient parameters;
-  bool is_set = false;
-};
 
 void StepDerivatives::Impl::need_step() const {
   if (!is_set)
@@ -59,11 +28,14 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
   fits(d.qfrc, model.tree.n_v, "dqfrc", "velocities");
   fits(d.restitution, program.n_impacts, "drestitution", "impacts");
   const auto wrenches = static_cast<Eigen::Index>(tape.input.wrenches.size());
-  if (d.forces.size() > 0 && (d.forces.rows() != wrenches || d.forces.cols() != 3)) {
-    throw ModelError("dforces is " + std::to_string(d.forces.rows()) + " by " +
-                     std::to_string(d.forces.cols()) + "; it is " + std::to_string(wrenches) +
+  const auto fits_wrenches = [&](const MatX& x, const std::string& what) {
+    if (x.size() == 0 || (x.rows() == wrenches && x.cols() == 3)) return;
+    throw ModelError(what + " is " + std::to_string(x.rows()) + " by " + std::to_string(x.cols()) +
+                     "; it is " + std::to_string(wrenches) +
                      " by 3, a row for each wrench that was applied in the step");
-  }
+  };
+  fits_wrenches(d.forces, "dforces");
+  fits_wrenches(d.torques, "dtorques");
   const auto rubs = static_cast<Eigen::Index>(program.friction.pairs.size());
   if (d.friction.size() > 0 && d.friction.size() != rubs) {
     throw ModelError("dfriction has " + std::to_string(d.friction.size()) + " entries; it has " +
@@ -71,6 +43,11 @@ void StepDerivatives::Impl::check(const StepDirection& d) const {
                      ", one for each pair that pushes with friction in the "
                      "step (rubbing)");
   }
+}
+
+void StepDerivatives::Impl::check(const StateDirection& covector) const {
+  check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
+  check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
 }
 
 Tangent StepDerivatives::Impl::push(const StepDirection& by, Order order) {
@@ -184,8 +161,7 @@ StateDirection StepDerivatives::directional(const StepDirection& direction) {
 
 StepDirection StepDerivatives::Impl::pull(const StateDirection& covector, bool with_parameters) {
   need_step();
-  check_vector(covector.q, model.tree.n_v, "q_hat", "velocities");
-  check_vector(covector.p, model.tree.n_v, "p_hat", "velocities");
+  check(covector);
   Tangent z{covector.q, covector.p, 0, 0};
   StepDirection out;
   pull_program(model, tape, program, z, out, with_parameters ? &parameters : nullptr);
@@ -209,6 +185,7 @@ StepDirection StepDerivatives::vjp(const StateDirection& covector, ModelGradient
               all.actuators,
               all.springs,
               all.dampers,
+              by_joint(impl_->model, all.placement),
               by_pair(all, impl_->program.friction)};
   return out;
 }
@@ -227,6 +204,7 @@ StepDerivative StepDerivatives::derivative() {
   impl_->set_columns(Input::friction, out.friction);
   out.rubbing = rubbing();
   impl_->set_columns(Input::forces, out.forces);
+  impl_->set_columns(Input::torques, out.torques);
   if (impl_->program.tells_time) {
     StepDirection by;
     by.h = 1;

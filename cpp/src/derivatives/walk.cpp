@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "derivatives/applied_derivative.hpp"
+#include "derivatives/contact_placements.hpp"
 #include "derivatives/program.hpp"
 
 namespace saltus {
@@ -17,12 +18,18 @@ void shift(const Tangent& b, const VecX& n, double slope, Tangent& z, double& le
   left -= sigma;
 }
 
-void shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, double left) {
+/// @return the covector of the gap
+double shift_back(const Tangent& b, const VecX& n, double slope, Tangent& z, double left) {
   const double of_sigma = b.q.dot(z.q) + b.p.dot(z.p) + b.energy * z.energy - left;
   z.q -= of_sigma / slope * n;
+  return -of_sigma / slope;
 }
 
 double entry(const VecX& x, int k) { return x.size() > 0 ? x[k] : 0; }
+
+Vec3 row_of(const MatX& x, std::size_t k) {
+  return x.size() > 0 ? Vec3(x.row(static_cast<Eigen::Index>(k)).transpose()) : Vec3(Vec3::Zero());
+}
 
 /// [s] What an arc's duration changes by, where the step's does by h and `left` of it is left.
 double duration_of(const StepProgram::Piece& piece, double h, double left) {
@@ -112,10 +119,10 @@ void push_piece(const ModelData& model, const Tape& tape, const StepDirection& b
   FlownArc& arc = *program.arcs[k];
   program.dQ = by.qfrc.size() > 0 ? by.qfrc : program.zero;
   if (by.control.size() > 0) program.dQ += arc.arc.Q_u * by.control;
-  for (Eigen::Index i = 0; i < by.forces.rows(); ++i) {
-    const Vec3 force = by.forces.row(i).transpose();
-    add_push(model, arc.arc.s.w, tape.input.wrenches[static_cast<std::size_t>(i)], force,
-             program.dQ);
+  for (std::size_t i = 0; i < tape.input.wrenches.size(); ++i) {
+    const Vec3 force = row_of(by.forces, i), torque = row_of(by.torques, i);
+    if (force.isZero(0) && torque.isZero(0)) continue;
+    add_push(model, arc.arc.s.w, tape.input.wrenches[i], force, torque, program.dQ);
   }
   const double dtau = duration_of(piece, by.h, left);
   push_flown(model, arc, program.dQ, dtau, program.friction, z);
@@ -145,16 +152,33 @@ void add_restitution(const NodeDerivative& node, int contact, double restitution
   to->restitution.emplace_back(node.pairs[static_cast<std::size_t>(contact)], of_e);
 }
 
+/// Back over the instant of a contact.
+void pull_instant(const ModelData& model, int contact, const Tangent& flow, double slope,
+                  double left, NodeDerivative& node, Tangent& z, ParameterGradient* to) {
+  const auto k = static_cast<std::size_t>(contact);
+  const double of_gap = shift_back(flow, node.gaps[k].n, slope, z, left);
+  if (to != nullptr) add_gap_placements(model, node.kin, node.pairs[k], of_gap, to->placement);
+}
+
+/// What the impulse itself has by the model.
+void add_impulse_gradient(const ModelData& model, const ImpulseDerivative& impulse,
+                          const VecX& p_hat, double of_lambda, NodeDerivative& node,
+                          ParameterGradient& to) {
+  evaluate_at_compression(model, impulse, node);
+  const double factor = of_lambda * (1 + impulse.restitution) / impulse.G;
+  add_node_gradient(model, node.w, impulse.w, factor, to);
+  add_impulse_placements(model, node, impulse, p_hat, of_lambda, to.placement);
+}
+
 double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Tangent& z,
                    Rubbing& friction, ParameterGradient* to) {
   if (impact.is_together) {
-    const VecX& n = impact.node.gaps[static_cast<std::size_t>(impact.first)].n;
     VecX extra, residual;
     pull_kick(impact.kick, VecX(), z, extra, residual, friction);
     if (to != nullptr && residual.size() > 0) {
-      add_kick_gradient(model, impact.node.q, impact.kick, residual, impact.node.w, *to);
+      add_kick_gradient(model, impact.node.q, impact.kick, residual, z.p, impact.node.w, *to);
     }
-    shift_back(impact.flow, n, impact.slope, z, left);
+    pull_instant(model, impact.first, impact.flow, impact.slope, left, impact.node, z, to);
     return 0;
   }
   double of_e = 0;
@@ -162,21 +186,17 @@ double pull_impact(const ModelData& model, double left, ImpactPieces& impact, Ta
     const double of_own = pull_friction(model, *each, impact.node, z, friction, to);
     add_restitution(impact.node, each->contact, each->restitution, of_own, to);
     of_e += of_own;
-    const VecX& n = impact.node.gaps[static_cast<std::size_t>(each->contact)].n;
-    shift_back(each->flow, n, each->slope, z, left);
+    pull_instant(model, each->contact, each->flow, each->slope, left, impact.node, z, to);
   }
   for (auto each = impact.impulses.rbegin(); each != impact.impulses.rend(); ++each) {
     const GapDerivative& gap = impact.node.gaps[static_cast<std::size_t>(each->contact)];
+    const VecX p_hat = z.p;
     const double of_lambda = pull_impulse(gap, *each, z);
     const double of_own = -each->u / each->G * of_lambda;
     add_restitution(impact.node, each->contact, each->restitution, of_own, to);
     of_e += of_own;
-    if (to != nullptr) {
-      evaluate_at_compression(model, *each, impact.node);
-      const double factor = of_lambda * (1 + each->restitution) / each->G;
-      add_gradient(model, impact.node.w, impact.node.zero, each->w, factor, *to);
-    }
-    shift_back(each->flow, gap.n, each->slope, z, left);
+    if (to != nullptr) add_impulse_gradient(model, *each, p_hat, of_lambda, impact.node, *to);
+    pull_instant(model, each->contact, each->flow, each->slope, left, impact.node, z, to);
   }
   return of_e;
 }
@@ -192,7 +212,9 @@ void pull_program(const ModelData& model, const Tape& tape, StepProgram& program
   Rubbing& friction = program.friction;
   friction.value.setZero(static_cast<Eigen::Index>(friction.pairs.size()));
   const std::vector<AppliedWrench>& wrenches = tape.input.wrenches;
-  to.forces.setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
+  for (MatX* each : {&to.forces, &to.torques}) {
+    each->setZero(static_cast<Eigen::Index>(wrenches.size()), 3);
+  }
   to.h = 0;
   double left = 0;
   if (program.has_rest) left = program.motion.q.dot(z.q) + program.motion.p.dot(z.p);
@@ -205,7 +227,10 @@ void pull_program(const ModelData& model, const Tape& tape, StepProgram& program
     }
     if (piece->kind == Kind::pass) {
       const Passing& passing = program.passings[k];
-      shift_back(passing.arrival, passing.gap.n, passing.slope, z, left);
+      const double of_gap = shift_back(passing.arrival, passing.gap.n, passing.slope, z, left);
+      if (parameters != nullptr) {
+        add_gap_placements(model, passing.kin, passing.pair, of_gap, parameters->placement);
+      }
       continue;
     }
     FlownArc& arc = *program.arcs[k];
@@ -214,8 +239,9 @@ void pull_program(const ModelData& model, const Tape& tape, StepProgram& program
     to.qfrc += program.dQ;
     if (to.control.size() > 0) to.control += arc.arc.Q_u.transpose() * program.dQ;
     for (std::size_t i = 0; i < wrenches.size(); ++i) {
-      const Vec3 of_force = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
-      to.forces.row(static_cast<Eigen::Index>(i)) += of_force.transpose();
+      const PulledWrench by = pull_push(model, arc.arc.s.w, wrenches[i], program.dQ);
+      to.forces.row(static_cast<Eigen::Index>(i)) += by.force.transpose();
+      to.torques.row(static_cast<Eigen::Index>(i)) += by.torque.transpose();
     }
     if (piece->kind == Kind::rest) left = of_tau;
     if (piece->kind == Kind::part) to.h += piece->part * (of_tau - left);

@@ -1,4 +1,4 @@
-"""Second derivatives of a transcribed problem, by central differences of its exact gradients."""
+"""Second derivatives of a transcribed problem: exact of smooth steps, else differences."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Curved:
         self.program, self.k, self.weight = program, k, weight
         self.of_step, self.of_gaps, self.multipliers = of_step, of_gaps, multipliers
 
-    def gradient(self, y: Array) -> Array:
-        """Return the gradient at inputs y: xi, controls, durations."""
+    def gradient(self, y: Array, *, is_with_step: bool = True) -> Array:
+        """Return the gradient at inputs y: xi, controls, durations; or all of it but the step's."""
         program, k, n, n_u = self.program, self.k, self.program.n, self.program.n_u
         node = program.placed(k, y[:n])
         g, last = np.zeros(len(y)), k == program.N
@@ -34,7 +34,7 @@ class Curved:
             g[: n + len(u)] += self.weight * program.priced(k, node, u)[1]
         if self.of_step is None:
             return g
-        if not last:
+        if not last and is_with_step:
             by = self.pulled(node, u, y[n + n_u :])
             g += np.concatenate([node.chart.T @ by[:n], by[n:]])
         row = program.first_u + len(program.setting.hits)
@@ -60,6 +60,16 @@ class Curved:
         by = whole.vjp(-back[:half], -back[half:])
         return np.concatenate([by.q, by.p, by.control])
 
+    def exact(self, y: Array) -> Array | None:
+        """Return the exact Hessian of the step's constraints; None where it has none."""
+        program, n = self.program, self.program.n
+        if self.of_step is None or self.k == program.N or len(y) > n + program.n_u:
+            return None  # no step, or one with planned impacts
+        start, half = program.placed(self.k, y[:n]).state, n // 2
+        return program.setting.planner.hessian(
+            start, y[n:], -self.of_step[:half], -self.of_step[half:]
+        )
+
     def hessian(self, y: Array) -> Array:
         """Return the Hessian at inputs y, inside the ranges where differences need it."""
         program, n, h = self.program, self.program.n, self.program.setting.planner.h
@@ -71,4 +81,8 @@ class Curved:
         momenta = np.maximum(np.abs(x.p), 1)
         scales = [np.ones(n // 2), momenta, np.maximum(np.abs(y[n : n + n_u]), 1)]
         scales.append(np.full(len(y) - n - n_u, h))
-        return hessian(lambda d: self.gradient(y + d), np.concatenate(scales))
+        exact = self.exact(y)
+        H = hessian(
+            lambda d: self.gradient(y + d, is_with_step=exact is None), np.concatenate(scales)
+        )
+        return H if exact is None else H + exact

@@ -1,4 +1,4 @@
-"""Second derivatives of cost and step by central differences of their exact gradients."""
+"""Second derivatives of cost and step: exact of smooth steps, else differences of gradients."""
 
 from __future__ import annotations
 
@@ -28,25 +28,29 @@ def hessian(gradient: Callable[[Array], Array], scales: Array) -> Array:
 class Curvature:
     """The Hessian of l_k + V_x . F by x = (q, p) and u, for each step of a rollout.
 
-    Differences of gradients, in a chart about the rollout's own states. A ball's gradient is along
-    turns and no chart's; the antisymmetric part is what that adds, and is left out.
+    That of a smooth step is exact. Of costs and other steps it is by differences of gradients, in a
+    chart about the rollout's own states. A ball's gradient is along turns and no chart's; the
+    antisymmetric part is what that adds, and is left out.
     """
 
     def __init__(self, system: System, cost: Cost, path: Rollout) -> None:
         self.system, self.cost, self.path = system, cost, path
 
-    def gradient(self, k: int, x: State, u: Array, after: Array) -> Array:
-        """Return the gradient by (q, p, u) of step k's cost and of `after` . F."""
+    def priced(self, k: int, x: State, u: Array) -> Array:
+        """Return the gradient by (q, p, u) of step k's cost."""
+        term = self.cost.stage(k, x.q, self.system.model.velocity(x), u)
+        return to_state(self.system, x, term[1], term[2])[0]
+
+    def pulled(self, k: int, x: State, u: Array, after: Array) -> Array:
+        """Return the gradient by (q, p, u) of `after` . F."""
         system, n = self.system, self.system.model.n_v
-        term = self.cost.stage(k, x.q, system.model.velocity(x), u)
-        own = to_state(system, x, term[1], term[2])[0]
         end = system.advance(x, u)
         q_hat = after[:n]
         if system.balls:
             moved = system.model.difference(self.path.states[k + 1].q, end.q)
             q_hat = difference_slopes(system.balls, moved).T @ q_hat
         back = system.stepper.vjp(q_hat, after[n:])
-        return np.asarray(own + np.concatenate([back.q, back.p, back.control]))
+        return np.concatenate([back.q, back.p, back.control])
 
     def __call__(self, k: int, after: Array) -> Array:
         """Return the Hessian of step k, (2 n_v + n_u, 2 n_v + n_u)."""
@@ -55,10 +59,15 @@ class Curvature:
         n = 2 * self.system.model.n_v
         scales = [np.ones(n // 2), np.maximum(np.abs(x.p), 1), np.maximum(np.abs(u), 1)]
 
-        def gradient(d: Array) -> Array:
-            return self.gradient(k, self.system.shift(x, d[:n]), u + d[n:], after)
+        exact = self.system.hessian(x, u, after[: n // 2], after[n // 2 :])
 
-        return hessian(gradient, np.concatenate(scales))
+        def gradient(d: Array) -> Array:
+            near = self.system.shift(x, d[:n]), u + d[n:]
+            g = self.priced(k, *near)
+            return g if exact is not None else g + self.pulled(k, *near, after)
+
+        H = hessian(gradient, np.concatenate(scales))
+        return H if exact is None else H + exact
 
     def of_the_end(self) -> Array:
         """Return the Hessian of the last state's cost, (2 n_v, 2 n_v)."""

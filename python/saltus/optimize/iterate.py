@@ -210,9 +210,10 @@ def ilqr(
     tolerance : float
         It ends where the next iteration promises less than this part of the cost.
     second_order : bool
-        Newton's method: the curvature of steps and costs by differences of their gradients, for
-        4 n_v + 2 n_u more steps a step. It converges quadratically where the cost that remains is
-        not small; Gauss and Newton's way then converges linearly.
+        Newton's method, with the curvature of steps and costs: exact of smooth steps without balls
+        (`Stepper.hessian`), else by differences of gradients, for 4 n_v + 2 n_u more steps a step.
+        It converges quadratically where the cost that remains is not small; Gauss and Newton's way
+        then converges linearly.
     progress : bool or callable, optional
         As in `simulate`; the completed fraction of `iterations`.
     **options

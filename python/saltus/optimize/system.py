@@ -122,6 +122,19 @@ class System:
         """Return the state h later."""
         return self.stepper.advance(state, control=u if len(u) else None)
 
+    def hessian(self, state: State, u: Array, q_hat: Array, p_hat: Array) -> Array | None:
+        """Return the Hessian of q_hat.q + p_hat.p after a step, by (q, p, u); None: it has none.
+
+        Steps with impacts and contacts have none, nor models with balls.
+        """
+        if self.balls:
+            return None
+        self.advance(state, u)
+        try:
+            return self.stepper.hessian(q_hat, p_hat)[:-1, :-1]
+        except ModelError:
+            return None
+
     def inside(self, u: Array, by: float) -> Array:
         """Return controls a little inside the actuators' ranges, beyond which they do nothing more.
 

@@ -24,10 +24,11 @@ class RunGradient:
     ----------
     q, p : numpy.ndarray, shape (n_v,)
         By the state that the run started from; q along velocities.
-    control : numpy.ndarray, shape (steps, n_u)
-        By the controls of each step.
-    qfrc : numpy.ndarray, shape (steps, n_v)
-        [1/(N m) | 1/N] By forces on the coordinates in each step.
+    control : numpy.ndarray, shape (rows - 1, n_u)
+        By the controls of each step; of rows that are some steps apart, by those that were held
+        from row to row, or (steps, n_u) where they were told by step.
+    qfrc : numpy.ndarray, shape (rows - 1, n_v)
+        [1/(N m) | 1/N] By forces on the coordinates in each step, or from row to row.
     h : float
         [1/s] By the duration of all steps alike.
     inertia : numpy.ndarray, shape (links, 10)
@@ -43,8 +44,11 @@ class RunGradient:
         By stiffness and length of each spring between two points, likewise.
     dampers : dict of str to float
         By the damping of each damper between two points, likewise.
-    forces : dict of str to numpy.ndarray, shape (steps, 3)
-        [1/N] By the force of each wrench that was applied, by its link, in each step.
+    placements : dict of str to numpy.ndarray, shape (3,)
+        [1/m] By where the frame of each joint that moves is in its parent link, likewise.
+    forces, torques : dict of str to numpy.ndarray, shape (rows - 1, 3)
+        [1/N], [1/(N m)] By each wrench that was applied, by its link, in the axes that it has,
+        likewise.
     """
 
     q: Array
@@ -62,7 +66,9 @@ class RunGradient:
     friction: dict[str, float]
     springs: dict[str, tuple[float, float]]
     dampers: dict[str, float]
+    placements: dict[str, Array]
     forces: dict[str, Array]
+    torques: dict[str, Array]
 
 
 BY_MODEL = (
@@ -76,6 +82,7 @@ BY_MODEL = (
     "friction",
     "springs",
     "dampers",
+    "placements",
 )
 
 
@@ -100,20 +107,31 @@ def step_options(run: Recording) -> dict[str, Any]:
     return step_arguments(run.options)
 
 
-def check_run(run: Recording, *, is_told: bool = False) -> None:
-    """Raise ModelError where the steps of a run cannot be made again from its rows.
-
-    `is_told`: what was applied is told beside the rows.
-    """
-    if run.model is None:
-        raise ModelError("the run has no model; saltus.load reads it where the file has one")
-    h = run.options.h
-    steps = round((run.t[-1] - run.t[0]) / h)
+def check_run(run: Recording) -> None:
+    """Raise ModelError where the steps of a run are not told by its rows."""
+    check_origin(run, is_told=False)
+    steps = steps_of(run)
     if steps != len(run.t) - 1:
         raise ModelError(
             f"the run has {len(run.t)} rows of {steps} steps; derivatives need a row each, as "
             "record_every=1 gives"
         )
+
+
+def steps_of(run: Recording) -> int:
+    """Return the number of steps of a run."""
+    return round(float(run.t[-1] - run.t[0]) / run.options.h)
+
+
+def check_origin(run: Recording, *, is_told: bool) -> None:
+    """Raise ModelError where a run has no model, or was made by what nobody tells.
+
+    `is_told`: what was applied is told beside the rows.
+    """
+    if run.model is None:
+        raise ModelError("the run has no model; saltus.load reads it where the file has one")
+    # what moves prescribed joints does work, too; steps made again tell other forces apart
+    is_told = is_told or any(name.endswith(" prescribed") for name in run.model.loop_names)
     if np.any(run.work["applied"]) and not is_told:
         raise ModelError(
             "forces were applied in the run, which it does not record; give them as actuators, or "
@@ -123,21 +141,55 @@ def check_run(run: Recording, *, is_told: bool = False) -> None:
         raise ModelError("the run's impact law is a function, whose derivatives are not told")
 
 
+def rows_apart(run: Recording) -> int:
+    """Return how many steps lie between two rows, or raise ModelError where rows do not tell."""
+    steps, parts = steps_of(run), len(run.t) - 1
+    every = round((run.t[1] - run.t[0]) / run.options.h) if parts > 0 else 1
+    at = run.t[0] + run.options.h * np.minimum(np.arange(parts + 1) * every, steps)
+    if every < 1 or np.abs(run.t - at).max() > 1e-6 * run.options.h * max(1, steps):
+        raise ModelError(
+            f"the run has {parts + 1} rows of {steps} steps, which are not as many steps apart; "
+            "derivatives need rows as record_every gives them"
+        )
+    return every
+
+
+def control_of(run: Recording, control: npt.ArrayLike | None) -> Array | None:
+    """Return the controls of each step, where they are told."""
+    if control is None:
+        return None
+    array = np.asarray(control, dtype=float)
+    return array[:, None] if array.ndim == 1 and run.control.shape[1] == 1 else array
+
+
 def gradient(
     run: Recording,
     q_hat: npt.ArrayLike,
     p_hat: npt.ArrayLike,
     forces: Mapping[str, Wrench] | None,
     qfrc: Mapping[str, npt.ArrayLike] | npt.ArrayLike | None,
+    control: npt.ArrayLike | None,
 ) -> RunGradient:
     """Return the gradient of a cost, see `Trajectory.gradient`."""
-    check_run(run, is_told=forces is not None or qfrc is not None)
-    assert run.model is not None  # check_run asks for one
+    check_origin(run, is_told=forces is not None or qfrc is not None)
+    assert run.model is not None  # check_origin asks for one
     rows, n_v = len(run.t), run.model.n_v
     by_q = rows_of(q_hat, "q_hat", rows, n_v)
     by_p = rows_of(p_hat, "p_hat", rows, n_v)
     rows_told = (run.model, run.options, run.t, run.q, run.p, run.control)
-    q, p, control, by_qfrc, by_forces, h, of_model = adjoint(*rows_told, by_q, by_p, forces, qfrc)
-    by_link = {str(link): by_forces[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
+    q, p, by_control, by_qfrc, *by_wrenches, h, of_model = adjoint(
+        *rows_told,
+        by_q,
+        by_p,
+        forces,
+        qfrc,
+        every=rows_apart(run),
+        steps=steps_of(run),
+        by_step=control_of(run, control),
+    )
+    by_link = [
+        {str(link): by[:, 3 * k : 3 * k + 3] for k, link in enumerate(forces or ())}
+        for by in by_wrenches
+    ]
     parts = {name: getattr(of_model, name) for name in BY_MODEL}
-    return RunGradient(q, p, control, by_qfrc, h, **parts, forces=by_link)
+    return RunGradient(q, p, by_control, by_qfrc, h, **parts, forces=by_link[0], torques=by_link[1])

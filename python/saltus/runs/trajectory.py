@@ -157,11 +157,14 @@ class Trajectory(Shown):
         *,
         forces: Mapping[str, Wrench] | None = None,
         qfrc: Mapping[str, ArrayLike] | ArrayLike | None = None,
+        control: ArrayLike | None = None,
     ) -> RunGradient:
         """Return the gradient of a cost of the run by what it was made from.
 
-        The adjoint method: every step is made again from its row, the last first, and its
-        derivative transposed (`Stepper.vjp`), through all impacts. About three times the run.
+        The adjoint method: every step is made again from the rows, the last first, and its
+        derivative transposed (`Stepper.vjp`), through all impacts. About three times the run. Of a
+        long run every thousandth row is enough (`record_every`): memory is that of its rows, and
+        64 MB.
 
         Parameters
         ----------
@@ -171,6 +174,9 @@ class Trajectory(Shown):
         forces : mapping of links' names to Wrench, optional
         qfrc : mapping of names to values, or array_like, shape (n_v,), optional
             What was applied in all steps, as `simulate` was given it; the rows do not tell it.
+        control : array_like, shape (steps, n_u), optional
+            The controls of each step, where they changed between rows; by default those of a row
+            are held until the next.
 
         Returns
         -------
@@ -179,9 +185,9 @@ class Trajectory(Shown):
         Raises
         ------
         ModelError
-            Where a step has no derivative, named as by `Stepper.jvp`; where rows are not those of
-            every step; where forces were applied, which a run does not record, and are not told,
-            or others than those.
+            Where a step has no derivative, named as by `Stepper.jvp`; where rows are not as many
+            steps apart; where forces were applied, which a run does not record, and are not told,
+            or others than those; likewise controls between rows.
 
         Examples
         --------
@@ -191,7 +197,7 @@ class Trajectory(Shown):
         >>> run.gradient(q_hat=[1.0], p_hat=[0.0]).q.shape
         (1,)
         """
-        return gradient(self, q_hat, p_hat, forces, qfrc)
+        return gradient(self, q_hat, p_hat, forces, qfrc, control)
 
     def save(self, path: str | os.PathLike[str], *, visuals: bool = True) -> None:
         """Write everything to an HDF5 file, with the model in it.

@@ -49,6 +49,7 @@ struct StepDirection {
   VecX restitution;  ///< (impacts) of each impact, all its contacts alike
   VecX friction;     ///< (rubbing) of each pair in StepDerivatives::rubbing
   MatX forces;       ///< (wrenches, 3) [N] of the force of each wrench that was applied
+  MatX torques;      ///< (wrenches, 3) [N m] of its torque; both in the axes that it has
 };
 
 /// What happens where a pair touches, as a covector has it.
@@ -72,6 +73,9 @@ struct ModelGradient {
   MatX actuators;
   MatX springs;  ///< (springs between points, 2) [N/m], [m] by stiffness and length
   VecX dampers;  ///< (dampers between points) [N s/m]
+  /// (joints, 3) by where each joint's frame is in its parent link's, in the axes of that link;
+  /// 0 of fixed ones.
+  MatX placements;
   std::vector<PairGradient> pairs;  ///< that rebound or rub, by their numbers; of others 0
 };
 
@@ -100,6 +104,7 @@ struct StepDerivative {
   MatX friction;                               ///< (2 n_v, rubbing) by each pair's friction
   std::vector<int> rubbing;                    ///< numbers of these pairs
   MatX forces;                                 ///< (2 n_v, 3 wrenches) by each one's force
+  MatX torques;                                ///< (2 n_v, 3 wrenches) by each one's torque
   Smoothness smoothness = Smoothness::smooth;  ///< what all this is worth
   std::vector<ImpactDerivative> impacts;       ///< in order
 };
@@ -142,6 +147,12 @@ class SALTUS_EXPORT StepDerivatives {
   void derivative(MatX& A, MatX& B);
   /// The one-sided derivative along a direction, by the order that trajectories there have.
   StateDirection directional(const StepDirection& direction);
+  /// The second derivative of covector.(q, p) of the step's end along a direction, in O(n): what
+  /// vjp changes by. Of smooth steps, one arc without contacts, and of models without balls.
+  /// @throws ModelError that names what of the step or the model has none
+  StepDirection hvp(const StateDirection& covector, const StepDirection& direction);
+  /// The same for all directions of q, p, the controls and h: (2 n_v + n_u + 1) squared, symmetric.
+  MatX hessian(const StateDirection& covector);
   /// All orders of the impacts of each instant with several contacts.
   /// @param most of each impact
   std::vector<Selection> selections(int most = 1000);

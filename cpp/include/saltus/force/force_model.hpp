@@ -76,6 +76,8 @@ struct AppliedWrench {
   Vec3 force = Vec3::Zero();    ///< [N]
   Vec3 torque = Vec3::Zero();   ///< [N m]
   bool in_body = false;         ///< axes of the joint's frame, which turn with the body
+  /// In that frame, those that derivatives by force and torque are along, where these are in_body.
+  Mat3 axes = Mat3::Identity();
 };
 
 /// What drives a model over a step.

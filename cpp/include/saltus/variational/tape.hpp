@@ -15,9 +15,10 @@
 
 namespace saltus {
 
-/// A contact that pushes: over an arc, or in the kick that ends it.
+/// A contact or a loop that pushes: over an arc, or in the kick that ends it.
 struct TapeRow {
   int pair = -1;
+  int loop = -1;           ///< row of the equalities, which pushes both ways; and no pair
   int joint = -1;          ///< velocity of a joint with dry friction; P is along it, and no pair
   bool is_frozen = false;  ///< held as `frozen`, a plane of b
   bool is_point = false;   ///< and there at a point of a

@@ -51,7 +51,7 @@ void Stepper::Impl::record_match(const Launch& launch, TapeArc& to) {
 /// A row as it was held, and pushed with P along its tangents.
 void Stepper::Impl::record_row(const Row& row, double friction, const Vec3& P, TapeRow& to) {
   to.pair = pool.number(row.slot);
-  to.joint = -1;
+  to.joint = to.loop = -1;
   to.is_frozen = row.is_frozen;
   to.is_point = row.is_point;
   to.friction = friction;
@@ -76,12 +76,24 @@ void Stepper::Impl::record_joint(int dry, double P, double tau, TapeRow& to) {
   add(scene.trees, 1, node.dry[k].n, row);
   Eigen::Index velocity = 0;
   row.cwiseAbs().maxCoeff(&velocity);
-  to.pair = -1;
+  to.pair = to.loop = -1;
   to.joint = static_cast<int>(velocity);
   to.is_frozen = to.is_point = to.is_along = false;
   to.friction = 0;
   to.P = Vec3(P, 0, 0);
   to.slides = std::abs(P) >= (1 - 1e-9) * tau / 2 * node.dry_force[k];
+}
+
+/// What loops pushed, by rows.
+void Stepper::Impl::record_loops(const VecX& P, std::vector<TapeRow>& rows, int& used) {
+  for (Eigen::Index k = 0; k < P.size(); ++k) {
+    TapeRow& to = next_of(rows, used);
+    to.pair = to.joint = -1;
+    to.loop = static_cast<int>(k);
+    to.is_frozen = to.is_point = to.is_along = to.slides = false;
+    to.friction = 0;
+    to.P = Vec3(P[k], 0, 0);
+  }
 }
 
 /// Of the kick that closes the arc: its impulse in the frame that the arc's row has there.
@@ -147,7 +159,7 @@ void Stepper::Impl::record_arc(double asked, double left, const Launch* launch) 
       record_row(row, contact_of(node, row).friction, row.p, next_of(to.held, to.n_held));
     }
   }
-  if (work.scratch.loops) refuse("loops");
+  if (work.scratch.loops) record_loops(work.scratch.loops->mu, to.held, to.n_held);
   tape.has_settled = tape.has_settled || !flight.settlings.empty();
 }
 
@@ -158,6 +170,7 @@ void Stepper::Impl::record_end() {
   to.q_end = node.q;
   to.p_end = node.p;
   if (node.q != flight.work.arc.q_end) refuse("overlap that was moved apart");
+  if (node.loops.some) record_loops(node.loops.impulse, to.kick, to.n_kick);
   if (flight.work.rows.count == 0) return;
   for (std::size_t k = 0; k < kick.contacts.size(); ++k) {
     const Contact& c = *kick.contacts[k];
@@ -174,6 +187,7 @@ void Stepper::Impl::record_end() {
 void Stepper::Impl::record_contacts() {
   if (!recorded) return;
   Tape& tape = *recorded;
+  if (node.loops.some) refuse("an impact of bodies with loops or prescribed motions");
   tape.pieces.push_back({false, tape.n_impacts});
   TapeImpact& to = next_of(tape.impacts, tape.n_impacts);
   to.t = node.t;

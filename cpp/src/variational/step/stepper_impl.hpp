@@ -69,6 +69,7 @@ struct Stepper::Impl {
   void record_match(const Launch& launch, TapeArc& to);
   void record_row(const Row& row, double friction, const Vec3& P, TapeRow& to);
   void record_joint(int dry, double P, double tau, TapeRow& to);
+  void record_loops(const VecX& P, std::vector<TapeRow>& rows, int& used);
   void record_kick(std::size_t k, TapeArc& arc);
   void record_end();
   void record_contacts();
