@@ -15,6 +15,11 @@ constexpr double unknown = 1e-5;   ///< residual of impulses by contacts that do
 constexpr double known = 1e-7;     ///< below, what each contact does is known most often
 constexpr int light_sweeps = 30;   ///< as much work as one or two iterations
 constexpr int few = 4;             ///< contacts that Newton's method finds the way of by itself
+/// Of rho after a round that came nearer to the law, or easily so: where contacts are redundant and
+/// rub, more leads to where no round ends.
+constexpr double growth = 1.5, easy_growth = 4;
+/// Rounds with the same rho that end a little farther from the law, as they may on the way to it.
+constexpr int most_stays = 8;
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
 
 int root_of(int i, std::vector<int>& island) {
@@ -133,7 +138,7 @@ Settled PileIsland::settle_scaled(double part) {
   // far from the law softly, near it not; at once where it is known what each contact does
   const double soft = std::clamp(1e-3 / out.residual, 1.0, 1e4);
   double rho = out.residual > known && k_ > few ? soft : stiff_rho, halved = out.residual;
-  int idle = 0;
+  int idle = 0, stays = 0;
   Settled best = out;
   s_.p_best = s_.p;
   s_.u_best = s_.u;
@@ -154,7 +159,14 @@ Settled PileIsland::settle_scaled(double part) {
     } else if (++idle == (out.excess <= 0 || (rho > stiff_rho && !is_convex_) ? 3 : most_idle)) {
       break;  // rounding of gaps, or rates that no impulses can end
     }
-    rho = grows ? std::min((easy ? 32 : 4) * rho, most_rho) : round == 0 ? soft : rho / 8;
+    stays = taken && !grows ? stays + 1 : 0;
+    if (grows) {
+      rho = std::min((easy ? easy_growth : growth) * rho, most_rho);
+    } else if (round == 0) {
+      rho = soft;
+    } else if (!taken || rho > stiff_rho || stays % most_stays == 0) {
+      rho /= 8;
+    }
   }
   best.iterations = out.iterations;
   s_.p.swap(s_.p_best);
