@@ -123,12 +123,6 @@ def test_a_rim_that_an_edge_bears_ends_arcs_where_it_sinks():
     assert most_arcs(model, state, 1) <= 10  # a few impacts
 
 
-def test_edges_whose_lines_meet_beyond_their_ends_end_no_arc():
-    """The axis of a can and a plank's edge: where their lines met, 100 arcs ended."""
-    model, state = thrown_on_a_plank(0, restitution=0, friction=0)
-    assert most_arcs(model, state, 1) <= 10
-
-
 @pytest.mark.parametrize("seed", [0, 4, 6])
 def test_what_comes_back_by_the_bend_of_its_path_comes_to_rest(seed):
     """A cube on an egg: its edge leaves, and turns back, in hops each of .3 of the last."""

@@ -155,12 +155,4 @@ bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& w
   return false;
 }
 
-bool meets_beyond_ends(const Scene& scene, int crossing, const Node& node, ArcWork& work) {
-  const Pair& pair = node.pool[crossing];
-  if (!std::holds_alternative<Crossing>(pair.kind)) return false;
-  place_end(scene.model, work.arc.q_end, work.scratch);
-  pair_gap_at_end(scene.model, pair, work.scratch);  // for its poses
-  return edge_distance(scene.model.tree, work.scratch.kin_end, pair) > pair.touch;
-}
-
 }  // namespace saltus

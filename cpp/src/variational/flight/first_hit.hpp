@@ -21,7 +21,4 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
 /// as before the two are level, the rim says when it closes.
 bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& work);
 
-/// Two edges whose lines meet at the arc's end beyond an end of one: the edges do not.
-bool meets_beyond_ends(const Scene& scene, int crossing, const Node& node, ArcWork& work);
-
 }  // namespace saltus
