@@ -10,8 +10,6 @@
 namespace saltus {
 namespace {
 
-using Strided6 = Eigen::Map<const Vec6, 0, Eigen::InnerStride<lanes>>;
-
 using Ten = Eigen::Matrix<double, 10, 1>;
 
 Ten contract(const Vec6& V, const Vec6& dV, const Vec6& turn, const Vec3& g) {
@@ -96,7 +94,7 @@ void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const 
   for (int i = 0; i < tree.joints(); ++i) {
     const int slot = model.packed.slot[i], parent = tree.parent[i];
     const double* S_W = at(w.S_W, slot);
-    const Strided6 S(S_W), W(S_W + 6 * lanes), V(at(w.V, slot));
+    const Vec6 S = six(S_W), W = six(S_W + 6 * lanes), V = six(at(w.V, slot));
     const Drive& drive = tree.drive[i];
     const double x_i = drive.multiplier * x[drive.velocity];
     const double y_i = drive.multiplier * y[drive.velocity];
@@ -109,9 +107,10 @@ void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const 
     }
     const Mat3 R = rotation_of(w, slot);
     const Vec3 p = position_of(w, slot), g = R.transpose() * model.mass.gravity;
-    to.body.row(i) +=
-        factor *
-        contract(in_joint(R, p, V), in_joint(R, p, twist), in_joint(R, p, turn), g).transpose();
+    const Vec6 own = in_joint(R, p, V), change = in_joint(R, p, twist);
+    to.body.row(i) += factor * contract(own, change, in_joint(R, p, turn), g).transpose();
+    set_body(model.mass.body[i], model.mass.gravity, R, own, change, turn, twist,
+             to.placement.body[i]);
   }
   add_own_gradient(model, w, x, y, factor, to);
 }
@@ -120,7 +119,7 @@ void add_node_gradient(const ModelData& model, const Packed& w, const VecX& y, d
                        ParameterGradient& to) {
   const VecX none = VecX::Zero(model.tree.n_v);
   add_gradient(model, w, none, y, factor, to);
-  add_placements(model, w, none, y, factor, to.placement);
+  add_placements(model, w, factor, to.placement);
 }
 
 void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const VecX& Q,
@@ -129,7 +128,8 @@ void add_arc_gradient(const ModelData& model, const ArcDerivative& arc, const Ve
   to.damping -= arc.v.cwiseProduct(Q);
   add_actuators(model.forces, arc, Q, to);
   add_spring_gradient(model, arc, Q, to);
-  add_arc_placements(model, arc, Q, to.placement);
+  add_point_forces(model, arc, to.placement);
+  add_placements(model, arc.s.w, 1, to.placement);
   if (arc.s.shift.size() == 0) return;
   // stiff damping opens the arc with more: tau/2 shift d v, of joints of one degree
   to.damping += arc.tau / 2 * arc.s.shift.cwiseProduct(arc.v).cwiseProduct(arc.of_L_v);

@@ -34,7 +34,8 @@ struct ParameterGradient {
   void start(const ModelData& model);
 };
 
-/// to += factor (what all but placements make of x.L_q + y.L_v) at w.
+/// Sets the bodies of to.placement, too: to += factor (what all but placements make of x.L_q +
+/// y.L_v) at w.
 void add_gradient(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
                   double factor, ParameterGradient& to);
 

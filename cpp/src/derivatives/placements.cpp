@@ -1,46 +1,16 @@
 #include "derivatives/placements.hpp"
 
-#include <algorithm>
+#include <map>
+#include <string>
 
 #include "derivatives/placed_numbers.hpp"
 #include "lagrangian/packed/potentials.hpp"
 
 namespace saltus {
-namespace {
 
 using Body = PlacementGradient::Body;
 
-/// What moves with x and y, and its own momentum and weight.
-void set_bodies(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
-                std::vector<Body>& bodies) {
-  const Tree& tree = model.tree;
-  std::vector<Vec6> twist(bodies.size());
-  for (int i = 0; i < tree.joints(); ++i) {
-    const int slot = model.packed.slot[i], parent = tree.parent[i];
-    const Vec6 S = six(at(w.S_W, slot)), W = six(at(w.S_W, slot) + 6 * lanes);
-    const Vec6 V = six(at(w.V, slot));
-    const Drive& drive = tree.drive[i];
-    const double x_i = drive.multiplier * x[drive.velocity];
-    Body& body = bodies[static_cast<std::size_t>(i)];
-    twist[i] = drive.multiplier * y[drive.velocity] * S + x_i * W;
-    body.turn = x_i * S;
-    if (parent >= 0) {
-      twist[i] += twist[parent];
-      body.turn += bodies[static_cast<std::size_t>(parent)].turn;
-    }
-    const Mat3 R = rotation_of(w, slot);
-    const Vec3 p = position_of(w, slot), phi = angular(body.turn);
-    const Vec6 own = in_joint(R, p, V), change = in_joint(R, p, twist[i]);
-    const BodyInertia& b = model.mass.body[static_cast<std::size_t>(i)];
-    body.rate = angular(twist[i]) + phi.cross(angular(V));
-    body.P = b.mass * (R * (linear(own) + angular(own).cross(b.c_J)));
-    body.dP = b.mass * (R * (linear(change) + angular(change).cross(b.c_J))) + phi.cross(body.P);
-    body.F = b.mass * model.mass.gravity;
-    body.dF.setZero();
-  }
-}
-
-void add_sums(const ModelData& model, const Packed& w, double factor, PlacementGradient& to) {
+void add_placements(const ModelData& model, const Packed& w, double factor, PlacementGradient& to) {
   for (int i = model.tree.joints() - 1; i >= 0; --i) {
     const Body& own = to.body[static_cast<std::size_t>(i)];
     const int parent = model.tree.parent[i];
@@ -61,6 +31,8 @@ void add_sums(const ModelData& model, const Packed& w, double factor, PlacementG
     at_parent.dF += own.dF;
   }
 }
+
+namespace {
 
 Body* body_at(const ModelData& model, const PackedPoint& point, PlacementGradient& to) {
   if (point.slot < 0) return nullptr;
@@ -134,30 +106,24 @@ void add_wrenches(const ModelData& model, const ArcScratch& s, PlacementGradient
 void PlacementGradient::start(const ModelData& model) {
   by_joint.setZero(model.tree.joints(), 3);
   body.resize(static_cast<std::size_t>(model.tree.joints()));
+  if (above.size() == model.joints.size()) return;
+  std::map<std::string, const Link*> links;
+  for (const Link& link : model.links) links[link.name] = &link;
+  for (const JointInfo& joint : model.joints) above.push_back(links.at(joint.parent)->X_JL.R);
 }
 
-void add_placements(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
-                    double factor, PlacementGradient& to) {
-  set_bodies(model, w, x, y, to.body);
-  add_sums(model, w, factor, to);
-}
-
-void add_arc_placements(const ModelData& model, const ArcDerivative& arc, const VecX& Q,
-                        PlacementGradient& to) {
-  set_bodies(model, arc.s.w, Q, arc.of_L_v, to.body);
+void add_point_forces(const ModelData& model, const ArcDerivative& arc, PlacementGradient& to) {
   add_springs(model, arc.s.w, to);
   add_dampers(model, arc.s, to);
   add_wrenches(model, arc.s, to);
-  add_sums(model, arc.s.w, 1, to);
 }
 
 MatX by_joint(const ModelData& model, const PlacementGradient& gradient) {
   MatX out = MatX::Zero(static_cast<Eigen::Index>(model.joints.size()), 3);
   for (const JointInfo& joint : model.joints) {
     if (joint.frames.empty()) continue;
-    const auto parent = std::find_if(model.links.begin(), model.links.end(),
-                                     [&](const Link& link) { return link.name == joint.parent; });
-    out.row(joint.index) = gradient.by_joint.row(joint.frames.front()) * parent->X_JL.R;
+    const Mat3& R = gradient.above[static_cast<std::size_t>(joint.index)];
+    out.row(joint.index) = gradient.by_joint.row(joint.frames.front()) * R;
   }
   return out;
 }

@@ -26,17 +26,32 @@ struct PlacementGradient {
     Vec3 F, dF;
   };
   std::vector<Body> body;
+  std::vector<Mat3> above;  ///< (joints) axes of their parent links in those of the tree's joints
 
   void start(const ModelData& model);
 };
 
-/// to += factor (what placements make of x.L_q + y.L_v) at w, gravity's part of it in it.
-void add_placements(const ModelData& model, const Packed& w, const VecX& x, const VecX& y,
-                    double factor, PlacementGradient& to);
+/// A body with its own momentum and weight. @param own its twist in its joint's frame @param change
+/// that by x and y; twist the same in the world's axes, about O
+inline void set_body(const BodyInertia& inertia, const Vec3& gravity, const Mat3& R,
+                     const Vec6& own, const Vec6& change, const Vec6& turn, const Vec6& twist,
+                     PlacementGradient::Body& to) {
+  const Vec3 phi = angular(turn);
+  to.turn = turn;
+  to.rate = angular(twist) + phi.cross(R * angular(own));
+  to.P = inertia.mass * (R * (linear(own) + angular(own).cross(inertia.c_J)));
+  to.dP =
+      inertia.mass * (R * (linear(change) + angular(change).cross(inertia.c_J))) + phi.cross(to.P);
+  to.F = inertia.mass * gravity;
+  to.dF.setZero();
+}
 
-/// Of an arc that has just been pulled back: with its forces at points, Q their covector.
-void add_arc_placements(const ModelData& model, const ArcDerivative& arc, const VecX& Q,
-                        PlacementGradient& to);
+/// Adds to the bodies what acts at points of them in an arc.
+void add_point_forces(const ModelData& model, const ArcDerivative& arc, PlacementGradient& to);
+
+/// to.by_joint += factor (what placements make of x.L_q + y.L_v) at w, from the bodies: their
+/// numbers are summed up.
+void add_placements(const ModelData& model, const Packed& w, double factor, PlacementGradient& to);
 
 /// From the tree's joints to the model's: (joints, 3) in each parent link's axes; 0 of fixed ones.
 MatX by_joint(const ModelData& model, const PlacementGradient& gradient);
