@@ -126,8 +126,8 @@ double newton_step(const Solid& A, const Solid& B, double length, State& x) {
     M.row[turn + j][turn + j] = -x.n.dot(w);
     M.row[turn + j][6] = -E[j].dot(w);
   }
-  const double residual = norm(M.row[turn][6], M.row[turn + 1][6]) + slant(a, x.n, length) +
-                          slant(b, x.n, length);
+  const double residual =
+      norm(M.row[turn][6], M.row[turn + 1][6]) + slant(a, x.n, length) + slant(b, x.n, length);
   if (residual <= rounding * length || !M.solve()) return residual;
   const double u = M.row[turn][6], v = M.row[turn + 1][6], turned = norm(u, v);
   if (!std::isfinite(turned)) return residual;
