@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.bench import contact, humanoid, scenes
+from tests.bench import contact, contact_scenes, humanoid, scenes
 from tests.bench.kernels import BUILD, Programs, compiler, machine, written
 from tests.bench.scenes import Scene
 
@@ -54,7 +54,7 @@ def workloads() -> dict[str, Workload]:
 
 def pile(name: str) -> Scene:
     """Return a scene of the bench of contacts, its bodies without velocity."""
-    piles = {scene.name: scene for scene in contact.scenes()}
+    piles = {scene.name: scene for scene in contact_scenes.scenes()}
     return Scene(name, "pile", contact.urdf_of(piles[name]), 0.0)
 
 
