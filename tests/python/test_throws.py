@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scenes import thrown
+from tests.bench import contact
+from tests.bench.contact_scenes import galton
 from tests.bench.throws import random_scene
 
 import saltus
@@ -140,3 +142,15 @@ def test_what_comes_back_by_the_bend_of_its_path_comes_to_rest(seed):
         q[k : k + 4] = rng.normal(size=4)
     state = model.state(model.normalized(q), rng.uniform(-2, 2, model.n_v))
     assert most_arcs(model, state, 1.2) <= 10  # 65, 102 and 124 before
+
+
+def test_what_a_longer_arc_missed_is_watched_on_the_shorter_one():
+    """Fifty balls among pegs: two steps ended with balls .04 mm in each other, and were halved."""
+    model = contact.model_of(galton(50))
+    stepper, state = saltus.Stepper(model, contact.H), model.state()
+    for _ in range(36):
+        state = stepper.advance(state)
+        assert not stepper.report.fallbacks
+        places = state.q.reshape(50, 7)[:, :3]
+        apart = np.linalg.norm(places[:, None] - places, axis=2)[np.triu_indices(50, 1)]
+        assert apart.min() > 0.04 - 1e-10  # a touch is 1e-10 of the size
