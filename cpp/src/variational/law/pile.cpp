@@ -15,9 +15,8 @@ constexpr double unknown = 1e-5;   ///< residual of impulses by contacts that do
 constexpr double known = 1e-7;     ///< below, what each contact does is known most often
 constexpr int light_sweeps = 30;   ///< as much work as one or two iterations
 constexpr int few = 4;             ///< contacts that Newton's method finds the way of by itself
-/// Of rho after a round that came nearer to the law, or easily so: where contacts are redundant and
-/// rub, more leads to where no round ends.
-constexpr double growth = 1.5, easy_growth = 4;
+/// Of rho after a round that came nearer to the law, or easily so.
+constexpr double growth = 4, easy_growth = 32;
 /// Rounds with the same rho that end a little farther from the law, as they may on the way to it.
 constexpr int most_stays = 8;
 constexpr double least_rho = 1e-4, stiff_rho = 1e6, most_rho = 1e12;
