@@ -186,8 +186,9 @@ COLUMNS = [
 ]  # fmt: skip
 
 HOW = f"""\
-Boxes and balls on a floor, the heaps between four walls. saltus steps {1e3 * H:g} ms, MuJoCo
-{1e3 * THEIR_H:g} ms with its defaults; "a second" is the ratio of what a simulated second costs.
+Boxes and balls on a floor, the heaps between four walls, and balls that fall through the pegs of a
+Galton board. saltus steps {1e3 * H:g} ms, MuJoCo {1e3 * THEIR_H:g} ms with its defaults; "a
+second" is the ratio of what a simulated second costs.
 The worst step is over the median one; arcs and iterations are of a step. In saltus nothing
 overlaps, and what rests drifts by rounding; in MuJoCo contacts are soft, and friction creeps.
 What has moved by rounding alone for eight steps stands still in saltus, and steps in which
