@@ -47,10 +47,6 @@ void set_stop(const ModelData& model, const Pair& pair, FrameDerivative& out) {
   out.row[0] *= pair.stop.side * drive.multiplier;
 }
 
-}  // namespace
-
-namespace {
-
 /// A frame at a configuration, and how it goes with its gap.
 struct Frame {
   Gap gap;

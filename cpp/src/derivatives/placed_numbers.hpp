@@ -14,9 +14,6 @@ inline Mat3 rotation_of(const Packed& w, int slot) {
 /// [m] From O.
 inline Vec3 position_of(const Packed& w, int slot) { return three(at(w.p, slot)); }
 
-/// Of a slot's number `x`, and the next five.
-inline Vec6 six(const double* x) { return spatial(three(x), three(x + 3 * lanes)); }
-
 /// A twist about O as that of the joint's origin, in the joint's frame: (turn, move).
 inline Vec6 in_joint(const Mat3& R, const Vec3& p, const Vec6& twist) {
   return spatial(R.transpose() * angular(twist),

@@ -2,18 +2,13 @@
 
 #include <cmath>
 
+#include "saltus/lagrangian/packed_point.hpp"
 #include "saltus/tree/coordinates.hpp"
 
 namespace saltus {
 namespace {
 
 /// Six numbers of a slot.
-Vec6 six(const double* x) {
-  Vec6 out;
-  for (int c = 0; c < 6; ++c) out[c] = x[c * lanes];
-  return out;
-}
-
 }  // namespace
 
 Frames::Frames(const Model& model) : Frames(model, model.neutral()) {}

@@ -34,6 +34,8 @@ SALTUS_EXPORT Vec3 origin_of(const Packed& w, const PackedPoint& point);
 
 /// Three numbers of a slot.
 inline Vec3 three(const double* x) { return {x[0], x[lanes], x[2 * lanes]}; }
+/// Six of them.
+inline Vec6 six(const double* x) { return spatial(three(x), three(x + 3 * lanes)); }
 
 /// J of one joint, P from O.
 inline Vec3 motion_of(const Packed& w, int slot, const Vec3& P) {

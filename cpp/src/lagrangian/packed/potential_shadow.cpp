@@ -30,12 +30,6 @@ Moving point_along(const Packed& w, const ShadowTerm& out, const PackedPoint& po
   return P;
 }
 
-Vec6 six(const double* x) {
-  Vec6 out;
-  out << three(x), three(x + 3 * lanes);
-  return out;
-}
-
 /// Adds one joint's Q' and Q''; by joint, which drives what it may.
 void add_one(double Q1, double Q2, double rate, double* to) {
   to[0] -= rate * Q1;

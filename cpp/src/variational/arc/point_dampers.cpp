@@ -12,12 +12,6 @@
 namespace saltus {
 namespace {
 
-Vec6 six(const double* x) {
-  Vec6 out;
-  out << three(x), three(x + 3 * lanes);
-  return out;
-}
-
 Vec3 velocity_of(const Packed& w, const PackedPoint& point, const Vec3& P) {
   if (point.slot < 0) return Vec3::Zero();
   const double* V = at(w.V, point.slot);

@@ -88,7 +88,7 @@ struct Rows {
   std::vector<int> sticking;   ///< (trees) joints that stick
   VecX dense, column;          ///< (n_v) the first zero between uses
   std::array<VecX, 2> change;  ///< (n_v) likewise zero
-  VecX momentum;               ///< (n_v) the node's with all impulses, written by set_row_rates
+  VecX momentum;               ///< (n_v) the node's with all impulses, written by set_row_residual
   VecX size;                   ///< (n_v) of all that is summed up in it, likewise
 };
 

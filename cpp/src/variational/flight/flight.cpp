@@ -46,7 +46,7 @@ FlightOutcome no_arc(const ArcWork& work) {
   return has_arc ? FlightOutcome::law_not_met : FlightOutcome::not_converged;
 }
 
-/// What closes at the arc's end is no contact there: another pair has it, or the edges do not meet.
+/// What closes at the arc's end is no contact there: another pair has it.
 bool is_none(const Scene& scene, int slot, const Node& node, ArcWork& work) {
   return grazes_with_axis(scene, slot, node, work) || is_of_other_parts(scene, slot, node, work);
 }
@@ -185,8 +185,9 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
         continue;
       }
       if (!hit) return arrived(f);
+      const bool is_look = work.is_rough;  // what it does not hit the arc itself may hit
       found = shorten(scene, *hit, tau, node, memory, f);
-      knows_hits = found == ImpactTime::missed;
+      knows_hits = found == ImpactTime::missed && !is_look;
     } else if (level_held_ends(scene, node, work.rows)) {
       work.arc.v = node.v;
       knows_hits = false;

@@ -52,7 +52,7 @@ struct Soft {
   double acceleration;  ///< [m/s^2] of its gap, towards 0
 };
 
-/// Written by `fly`.
+/// Written by `start_step` and `fly`.
 struct Flight {
   explicit Flight(const Scene& scene);
 
@@ -72,6 +72,9 @@ struct Flight {
   HeldPath path;
   VecX dq, start_v, before_v, n;
 };
+
+/// No pair has come to rest yet.
+inline void start_step(Flight& flight) { flight.softs.clear(); }
 
 enum class FlightOutcome {
   arrived,

@@ -7,17 +7,26 @@
 
 namespace saltus {
 
-Return return_of(const Scene& scene, int slot, const Node& node, ArcWork& work) {
-  const Contact& c = node.contacts[node.contact_at(slot)];
-  const double tau = work.arc.tau;
+namespace {
+
+/// @param drop [m] after tau
+Return return_with(const Scene& scene, const Contact& c, double drop, double tau) {
   Return out;
-  out.drop = phi_at_end(scene, node.pool[slot], work) - c.phi - c.u * tau;
+  out.drop = drop;
   if (!(out.drop < 0)) return out;
   out.back = std::min(tau, -c.u * tau * tau / out.drop);
   // A step does not follow what is back within half of it: a contact rebounds twice a step at most.
   const bool is_last = settling_time(out, c.restitution) <= tau || out.back <= scene.options.h / 2;
   out.settles = c.u > 0 && c.restitution < 1 && is_last;
   return out;
+}
+
+}  // namespace
+
+Return return_of(const Scene& scene, int slot, const Node& node, ArcWork& work) {
+  const Contact& c = node.contacts[node.contact_at(slot)];
+  const double tau = work.arc.tau;
+  return return_with(scene, c, phi_at_end(scene, node.pool[slot], work) - c.phi - c.u * tau, tau);
 }
 
 // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
@@ -127,9 +136,10 @@ void rest_as_before(const Scene& scene, double left, const Node& node, Flight& f
     const int contact = node.contact_at(soft.slot);
     if (contact >= 0) {
       const Contact& c = node.contacts[contact];
-      if (c.motion == Contact::Motion::rests || !(c.u > 0)) continue;
-      const double back = 2 * c.u / soft.acceleration, over = back / (1 - c.restitution);
-      if (back <= left && (over <= left || back <= h / 2)) rest_hop(scene, contact, over, node, f);
+      const Return hop = return_with(scene, c, -soft.acceleration * left * left / 2, left);
+      const bool is_back = c.u * left + hop.drop <= 0;
+      if (c.motion == Contact::Motion::rests || !hop.settles || !is_back) continue;
+      rest_hop(scene, contact, settling_time(hop, c.restitution), node, f);
       continue;
     }
     if (!set_closing_contact(scene, soft.slot, node, f)) continue;

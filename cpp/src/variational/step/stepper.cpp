@@ -117,7 +117,7 @@ void Stepper::Impl::step_once(State& state, bool is_own) {
   if (!last_is_valid || !(state == last) || pool.is_full()) start(state, is_own);
   last_is_valid = false;  // until this step is done
   start_tape(state);
-  flight.softs.clear();
+  start_step(flight);
   set_shift();
   const double t_start = state.t, h = scene.options.h;
   const Launch* launch = has_approach(node) ? collide() : nullptr;
