@@ -6,11 +6,6 @@
 #include "saltus/tree/coordinates.hpp"
 
 namespace saltus {
-namespace {
-
-/// Six numbers of a slot.
-}  // namespace
-
 Frames::Frames(const Model& model) : Frames(model, model.neutral()) {}
 
 Frames::Frames(const Model& model, const VecRef& q)

@@ -9,6 +9,10 @@ namespace saltus {
 
 namespace {
 
+/// Rebounds a step of a contact that rebounds in full. Friction lets what rocks from point to point
+/// rebound ever faster, without end in a finite time: what is faster than this is at rest.
+constexpr double most_full_rebounds = 100;
+
 /// @param drop [m] after tau
 Return return_with(const Scene& scene, const Contact& c, double drop, double tau) {
   Return out;
@@ -16,8 +20,10 @@ Return return_with(const Scene& scene, const Contact& c, double drop, double tau
   if (!(out.drop < 0)) return out;
   out.back = std::min(tau, -c.u * tau * tau / out.drop);
   // A step does not follow what is back within half of it: a contact rebounds twice a step at most.
-  const bool is_last = settling_time(out, c.restitution) <= tau || out.back <= scene.options.h / 2;
-  out.settles = c.u > 0 && c.restitution < 1 && is_last;
+  const double h = scene.options.h;
+  const bool is_last = settling_time(out, c.restitution) <= tau || out.back <= h / 2;
+  const bool is_fast = c.friction > 0 && out.back <= h / most_full_rebounds;
+  out.settles = c.u > 0 && (c.restitution < 1 ? is_last : is_fast);
   return out;
 }
 
@@ -30,7 +36,9 @@ Return return_of(const Scene& scene, int slot, const Node& node, ArcWork& work) 
 }
 
 // Bounces after it take e, e^2, ... of its time (theory, section 6, Zeno).
-double settling_time(const Return& hop, double restitution) { return hop.back / (1 - restitution); }
+double settling_time(const Return& hop, double restitution) {
+  return restitution < 1 ? hop.back / (1 - restitution) : hop.back;
+}
 
 namespace {
 
