@@ -55,6 +55,7 @@ bool is_none(const Scene& scene, int slot, const Node& node, ArcWork& work) {
 ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& node, Memory& memory,
                    Flight& f) {
   ArcWork& work = f.work;
+  const bool is_look = work.is_rough;
   f.start_v = work.arc.v;
   const Pair& pair = node.pool[hit.slot];
   const bool ends_there =
@@ -73,7 +74,8 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
     if (hit.hops || ends_there || work.arc.tau > tau * (1 - 1e-9)) f.skips.let_pass(hit.slot);
     return found;
   }
-  if (found == ImpactTime::missed) f.skips.let_pass(hit.slot);
+  // what an arc that was only looked at does not hit the arc itself may hit
+  if (found == ImpactTime::missed && !is_look) f.skips.let_pass(hit.slot);
   // The law of the arc takes the last hop away, together with all that rests: in a pile one after
   // the other would make each other hop.
   if (found == ImpactTime::at_rest) {
@@ -185,7 +187,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
         continue;
       }
       if (!hit) return arrived(f);
-      const bool is_look = work.is_rough;  // what it does not hit the arc itself may hit
+      const bool is_look = work.is_rough;
       found = shorten(scene, *hit, tau, node, memory, f);
       knows_hits = found == ImpactTime::missed && !is_look;
     } else if (level_held_ends(scene, node, work.rows)) {
