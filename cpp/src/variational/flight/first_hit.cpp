@@ -67,9 +67,11 @@ void add_if_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
     if (const std::optional<Hit> hit = sinking_hit(scene, slot, node, f)) f.hits.push_back(*hit);
     return;
   }
+  const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
+  // of edges the chord knows how far they are from each other, not on which side
+  if (hops && pair.kind == PairKind::crossing) return f.hits.push_back({slot, 0, hops});
   const ChordHit hit = first_hit_on_chord(scene.model.tree, pair, node.q, f.dq, level);
   if (hit.outcome == ChordHit::Outcome::clear || !(hit.s < 2)) return;
-  const bool hops = contact >= 0 && dot(scene.trees, node.contacts[contact].n, f.dq) <= 0;
   f.hits.push_back({slot, hit.s, hops});
 }
 

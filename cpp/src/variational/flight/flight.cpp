@@ -80,6 +80,7 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
   // the other would make each other hop.
   if (found == ImpactTime::at_rest) {
     rest_from_now(scene, node.contact_at(hit.slot), node, work.rows);
+    f.skips.watch_again();
   }
   work.arc.v = f.start_v;
   return found;
@@ -97,8 +98,28 @@ bool change_rows(const Scene& scene, const Node& node, Flight& f) {
   return true;
 }
 
+/// Of two solids where the pair is one of their parts.
+const Pair& whole_of(const Node& node, int slot) {
+  const Pair* solid = node.pool.solid(slot);
+  return solid != nullptr ? *solid : node.pool[slot];
+}
+
+/// What was let pass is clear at the arc's end, or no deeper than at the node.
+bool has_passed(const Scene& scene, const Node& node, Flight& f) {
+  constexpr double sunk = 100;  // touches
+  return std::all_of(f.skips.some().begin(), f.skips.some().end(), [&](const Skips::Pass& each) {
+    if (!each.now) return true;
+    const Pair& pair = whole_of(node, each.slot);
+    const double phi = phi_at_end(scene, pair, f.work);
+    if (phi >= -sunk * pair.touch) return true;
+    f.closing = each.slot;
+    return phi >= pair_gap(scene.model.tree, node.kin, pair).phi - sunk * pair.touch;
+  });
+}
+
 /// What would have settled after an arc that has become shorter since has not.
-FlightOutcome arrived(Flight& f) {
+FlightOutcome arrived(const Scene& scene, const Node& node, Flight& f) {
+  if (!has_passed(scene, node, f)) return FlightOutcome::impact_not_located;
   const Rows& rows = f.work.rows;
   const auto is_pressed = [&](const Settling& each) {
     return std::any_of(rows.active.begin(), rows.active.end(), [&](int i) {
@@ -186,7 +207,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
         knows_hits = false;
         continue;
       }
-      if (!hit) return arrived(f);
+      if (!hit) return arrived(scene, node, f);
       const bool is_look = work.is_rough;
       found = shorten(scene, *hit, tau, node, memory, f);
       knows_hits = found == ImpactTime::missed && !is_look;

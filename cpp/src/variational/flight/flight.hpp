@@ -23,17 +23,19 @@ namespace saltus {
 /// Pairs that no impact is sought of, as long as contacts hold as they do: they graze, or rest.
 class Skips {
  public:
-  void start();
-  void let_pass(int slot);
-  bool passes(int slot) const;
-  void watch_again();  ///< what may pass on one arc is watched on one that others hold
-
- private:
   struct Pass {
     int slot;
     int times;  ///< in this flight
     bool now;
   };
+
+  void start();
+  void let_pass(int slot);
+  bool passes(int slot) const;
+  void watch_again();  ///< what may pass on one arc is watched on one that others hold
+  const std::vector<Pass>& some() const { return some_; }
+
+ private:
   std::vector<Pass> some_;  ///< few
 };
 

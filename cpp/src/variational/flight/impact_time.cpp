@@ -24,6 +24,14 @@ bool has_rim(const Pair& pair) {
   return std::holds_alternative<Rim>(pair.kind) || std::holds_alternative<RimCrossing>(pair.kind);
 }
 
+/// What does not leaps where its parts change sides: no impact. So do rims that pass level.
+bool faces_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
+  const ModelData& model = scene.model;
+  place_end(model, work.arc.q_end, work.scratch);
+  const Gap gap = pair_gap_at_end(model, pair, work.scratch);
+  return !has_rim(pair) && !is_silent(model.tree, work.scratch.kin_end, pair, gap);
+}
+
 /// g and g' at the end of flight.arc.
 struct GapAtEnd {
   double phi;
@@ -219,12 +227,17 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
       b.hi = tau;
       b.hi_is_closed = true;
     }
-    const bool is_known = std::abs(g.phi) <= (is_free(f.work) ? 1 : noisy_touches) * touch;
     // what many rows hold is no sharper than what its Newton iteration leaves
-    const bool is_noise = k >= 5 && b.hi_is_closed && std::abs(g.phi) >= phi_before / 2;
-    if (is_known && is_noise) return ImpactTime::found;
+    const double known = is_free(f.work) ? touch : noisy_touches * touch;
+    const double width = b.hi - b.lo;
+    const bool is_noise = b.hi_is_closed && std::abs(g.slope) * width < std::abs(g.phi) / 4;
+    if (is_noise && std::abs(g.phi) <= known) return ImpactTime::found;
     // the bracket is a few ulp wide: the root is as good as doubles can tell it
-    if (b.hi - b.lo <= 4e-16 * b.whole) return is_known ? ImpactTime::found : ImpactTime::missed;
+    if (width <= 4e-16 * b.whole) {
+      if (std::abs(g.phi) <= known) return ImpactTime::found;
+      return b.hi_is_closed && faces_at_end(scene, pair, f.work) ? ImpactTime::not_located
+                                                                 : ImpactTime::missed;
+    }
     if (!b.hi_is_closed && g.slope >= 0) return ImpactTime::missed;
     phi_before = std::abs(g.phi);
     // slopes leave constraints aside, and may lead nowhere

@@ -163,6 +163,7 @@ bool rest_soft_hits(const Scene& scene, const Node& node, Flight& f) {
   const auto rests = std::remove_if(f.hits.begin(), f.hits.end(), is_soft);
   const bool some = rests != f.hits.end();
   f.hits.erase(rests, f.hits.end());
+  if (some) f.skips.watch_again();
   return some;
 }
 
