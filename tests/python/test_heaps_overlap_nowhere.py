@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from tests.bench.piles import lowest_gap, on_floor
 
 import saltus
-from tests.bench.piles import lowest_gap, on_floor
 
 
 def dice(seed: int, count: int = 6) -> saltus.Model:
