@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/shapes/facts.hpp"
 #include "saltus/collision/chord.hpp"
 #include "variational/flight/borne_rim.hpp"
 
@@ -135,6 +136,18 @@ bool grazes_with_axis(const Scene& scene, int end, const Node& node, ArcWork& wo
     if (apart < same_point * ball->radius) return true;
   }
   return false;
+}
+
+bool meets_beyond_ends(const Scene& scene, int slot, const Node& node, ArcWork& work) {
+  const ModelData& model = scene.model;
+  const Pair& pair = node.pool[slot];
+  if (!std::holds_alternative<Crossing>(pair.kind)) return false;
+  if (!(edge_capsule(pair.on_a.shape).radius + edge_capsule(pair.on_b.shape).radius > 0)) {
+    return false;
+  }
+  place_end(model, work.arc.q_end, work.scratch);
+  const Gap gap = pair_gap_at_end(model, pair, work.scratch);
+  return is_silent(model.tree, work.scratch.kin_end, pair, gap);
 }
 
 bool is_of_other_parts(const Scene& scene, int rim, const Node& node, ArcWork& work) {

@@ -48,7 +48,8 @@ FlightOutcome no_arc(const ArcWork& work) {
 
 /// What closes at the arc's end is no contact there: another pair has it.
 bool is_none(const Scene& scene, int slot, const Node& node, ArcWork& work) {
-  return grazes_with_axis(scene, slot, node, work) || is_of_other_parts(scene, slot, node, work);
+  return grazes_with_axis(scene, slot, node, work) || is_of_other_parts(scene, slot, node, work) ||
+         meets_beyond_ends(scene, slot, node, work);
 }
 
 /// Shortens the arc of duration tau to where the pair closes, or says why that is no impact.
