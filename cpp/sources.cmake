@@ -153,7 +153,7 @@ set(SALTUS_SOURCES
   cpp/src/variational/impact/certify.cpp
   cpp/src/variational/impact/custom_law.cpp
   cpp/src/variational/impact/impact.cpp
-  cpp/src/variational/flight/borne_rim.cpp
+  cpp/src/variational/flight/sinking.cpp
   cpp/src/variational/flight/first_hit.cpp
   cpp/src/variational/flight/flight.cpp
   cpp/src/variational/flight/held_path.cpp

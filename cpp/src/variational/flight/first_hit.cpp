@@ -5,7 +5,7 @@
 
 #include "collision/shapes/facts.hpp"
 #include "saltus/collision/chord.hpp"
-#include "variational/flight/borne_rim.hpp"
+#include "variational/flight/sinking.hpp"
 
 namespace saltus {
 namespace {

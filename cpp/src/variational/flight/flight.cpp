@@ -7,6 +7,7 @@
 #include "variational/flight/first_hit.hpp"
 #include "variational/flight/impact_time.hpp"
 #include "variational/flight/launch.hpp"
+#include "variational/flight/sinking.hpp"
 #include "variational/flight/soft.hpp"
 
 namespace saltus {
@@ -63,7 +64,7 @@ ImpactTime shorten(const Scene& scene, const Hit& hit, double tau, const Node& n
       f.ends_at == hit.slot && std::abs(phi_at_end(scene, pair, work)) <= pair.touch;
   f.closing = hit.slot;
   ImpactTime found = find_impact_time(scene, hit, node, memory, f);
-  if (found == ImpactTime::found && is_none(scene, hit.slot, node, work)) {
+  if (found == ImpactTime::found && !hit.sinks && is_none(scene, hit.slot, node, work)) {
     found = ImpactTime::missed;
   }
   if (found == ImpactTime::found) {
@@ -99,22 +100,15 @@ bool change_rows(const Scene& scene, const Node& node, Flight& f) {
   return true;
 }
 
-/// Of two solids where the pair is one of their parts.
-const Pair& whole_of(const Node& node, int slot) {
-  const Pair* solid = node.pool.solid(slot);
-  return solid != nullptr ? *solid : node.pool[slot];
-}
-
 /// What was let pass is clear at the arc's end, or no deeper than at the node.
 bool has_passed(const Scene& scene, const Node& node, Flight& f) {
-  constexpr double sunk = 100;  // touches
   return std::all_of(f.skips.some().begin(), f.skips.some().end(), [&](const Skips::Pass& each) {
     if (!each.now) return true;
     const Pair& pair = whole_of(node, each.slot);
     const double phi = phi_at_end(scene, pair, f.work);
-    if (phi >= -sunk * pair.touch) return true;
+    if (phi >= -noisy_touches * pair.touch) return true;
     f.closing = each.slot;
-    return phi >= pair_gap(scene.model.tree, node.kin, pair).phi - sunk * pair.touch;
+    return phi >= pair_gap(scene.model.tree, node.kin, pair).phi - noisy_touches * pair.touch;
   });
 }
 
@@ -199,6 +193,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       solved = false;
       bool changes = change_rows(scene, node, f);
       if (!changes && !knows_hits) find_hits(scene, node, f);
+      if (!changes && f.hits.empty() && !work.is_rough) find_sinking_bodies(scene, node, f);
       changes = changes || rest_soft_hits(scene, node, f);
       work.rough = changes ? rough_look : 0;
       const std::optional<Hit> hit = changes ? std::nullopt : take_first(f.hits);

@@ -45,7 +45,8 @@ struct Hit {
   double s;   ///< where on the chord
   bool hops;  ///< it touches at the node and leaves, yet closes along the chord from the start: it
               ///< is back before the arc ends
-  bool sinks = false;  ///< a rim that another part bears at the node, and not on the arc
+  bool sinks = false;  ///< a part that another bears at the node, and not on the arc
+  double target = 0;   ///< [m] what a gap that sinks is sought at
 };
 
 /// A pair that came to rest in an arc of this step.

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "variational/arc/closing_arc.hpp"
-#include "variational/flight/borne_rim.hpp"
+#include "variational/flight/sinking.hpp"
 #include "variational/flight/soft.hpp"
 
 namespace saltus {
@@ -16,9 +16,6 @@ double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work) {
 }
 
 namespace {
-
-/// Of the gap at an arc's end that contacts hold.
-constexpr double noisy_touches = 100;
 
 bool has_rim(const Pair& pair) {
   return std::holds_alternative<Rim>(pair.kind) || std::holds_alternative<RimCrossing>(pair.kind);

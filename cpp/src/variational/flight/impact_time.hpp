@@ -14,6 +14,9 @@ enum class ImpactTime {
   not_located,    ///< the root was not found in the bounded number of arcs
 };
 
+/// Of a gap at the end of an arc that contacts hold: that is no sharper.
+constexpr double noisy_touches = 100;
+
 /// [m] of the pair, at the end of the arc.
 double phi_at_end(const Scene& scene, const Pair& pair, ArcWork& work);
 

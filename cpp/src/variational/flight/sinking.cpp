@@ -1,4 +1,4 @@
-#include "variational/flight/borne_rim.hpp"
+#include "variational/flight/sinking.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,17 @@ namespace saltus {
 namespace {
 
 /// [m] What a rim that is borne may be at, and where it is said to close.
-double target_of(int slot, const Node& node) {
+double target_of_rim(int slot, const Node& node) {
   return floor_of(node, slot) + node.pool[slot].touch / 2;
 }
 
+/// What sinks: a rim, or the bodies of an edge.
+const Pair& pair_of(const Node& node, int slot) {
+  return node.pool[slot].kind == PairKind::crossing ? whole_of(node, slot) : node.pool[slot];
+}
+
 /// [m] Above the target, where the bodies are at s on the chord.
-double height_on_chord(const Scene& scene, int slot, double s, const Node& node, Flight& f) {
+double height_on_chord(const Scene& scene, const Hit& hit, double s, const Node& node, Flight& f) {
   ArcWork& work = f.work;
   if (s < 1) {
     integrate(scene.model.tree, node.q, s, f.dq, work.scratch.q);
@@ -23,8 +28,7 @@ double height_on_chord(const Scene& scene, int slot, double s, const Node& node,
   } else {
     place_end(scene.model, work.arc.q_end, work.scratch);
   }
-  const Pair& pair = node.pool[slot];
-  return pair_gap_at_end(scene.model, pair, work.scratch).phi - target_of(slot, node);
+  return pair_gap_at_end(scene.model, pair_of(node, hit.slot), work.scratch).phi - hit.target;
 }
 
 /// Where heights fall below 0 that are flat above it, of the part that bears the rim, and below it
@@ -68,37 +72,69 @@ bool is_borne(int slot, const Node& node) {
   return phi != 0 && std::isfinite(phi) && phi <= pair.touch;
 }
 
+const Pair& whole_of(const Node& node, int slot) {
+  const Pair* solid = node.pool.solid(slot);
+  return solid != nullptr ? *solid : node.pool[slot];
+}
+
+namespace {
+
+/// Of what is below its target at s, by g < 0: where it falls below.
+Hit fall(const Scene& scene, Hit hit, double g, const Node& node, Flight& f) {
+  const double touch = node.pool[hit.slot].touch;
+  Fall root(0, hit.s, g);
+  for (int k = 0; k < most_steps && !root.ends(); ++k) {
+    hit.s = root.next();
+    const double here = height_on_chord(scene, hit, hit.s, node, f);
+    if (std::abs(here) <= touch / 4) break;
+    root.take(hit.s, here);
+  }
+  return hit;
+}
+
+}  // namespace
+
 std::optional<Hit> sinking_hit(const Scene& scene, int slot, const Node& node, Flight& f) {
   const double touch = node.pool[slot].touch;
   for (const double s : {1.0, 0.5, 0.25, 0.75}) {
-    const double g = height_on_chord(scene, slot, s, node, f);
-    if (!(g < -touch / 2)) continue;
-    Fall root(0, s, g);
-    double at = s;
-    for (int k = 0; k < most_steps && !root.ends(); ++k) {
-      at = root.next();
-      const double here = height_on_chord(scene, slot, at, node, f);
-      if (std::abs(here) <= touch / 4) break;
-      root.take(at, here);
-    }
-    return Hit{slot, at, false, true};
+    const Hit hit{slot, s, false, true, target_of_rim(slot, node)};
+    const double g = height_on_chord(scene, hit, s, node, f);
+    if (g < -touch / 2) return fall(scene, hit, g, node, f);
   }
   return std::nullopt;
 }
 
+void find_sinking_bodies(const Scene& scene, const Node& node, Flight& f) {
+  const Pair* last = nullptr;
+  for (const int slot : node.silent) {
+    const Pair& pair = node.pool[slot];
+    const Pair* solid = node.pool.solid(slot);
+    if (pair.kind != PairKind::crossing || solid == nullptr || solid == last) continue;
+    last = solid;
+    if (f.skips.passes(slot)) continue;
+    const double phi = phi_at_end(scene, *solid, f.work);
+    if (phi >= -noisy_touches * pair.touch) continue;
+    const double before = std::min(pair_gap(scene.model.tree, node.kin, *solid).phi, 0.0);
+    if (phi >= before - noisy_touches * pair.touch) continue;
+    const Hit hit{slot, 1, false, true, before - pair.touch / 2};
+    f.hits.push_back(fall(scene, hit, phi - hit.target, node, f));
+  }
+}
+
 ImpactTime find_sinking_time(const Scene& scene, const Hit& hit, const Node& node, Flight& f) {
   ArcWork& work = f.work;
-  const Pair& pair = node.pool[hit.slot];
-  const double target = target_of(hit.slot, node), whole = work.arc.tau;
-  const double g_whole = phi_at_end(scene, pair, work) - target;
+  const Pair& pair = pair_of(node, hit.slot);
+  const double whole = work.arc.tau, g_whole = phi_at_end(scene, pair, work) - hit.target;
   if (!(g_whole < 0)) return ImpactTime::missed;  // the arc's end is clear: it grazes
   Fall root(0, whole, g_whole);
   double tau = hit.s * whole;
   for (int k = 0; k < most_steps; ++k) {
     if (!solve(scene, tau, node, work)) return ImpactTime::not_converged;
-    const double g = phi_at_end(scene, pair, work) - target;
+    const double g = phi_at_end(scene, pair, work) - hit.target;
     if (std::abs(g) <= pair.touch / 4) return ImpactTime::found;
     root.take(tau, g);
+    // the ends of arcs that many contacts hold are no sharper
+    if (root.ends() && std::abs(g) <= noisy_touches * pair.touch) return ImpactTime::found;
     if (root.ends()) break;
     tau = root.next();
   }
