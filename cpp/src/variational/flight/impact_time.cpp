@@ -54,7 +54,6 @@ GapAtEnd gap_at_end(const Scene& scene, const Pair& pair, Memory& memory, Flight
 struct Bracket {
   double lo, hi;      ///< g(lo) > 0
   bool hi_is_closed;  ///< g(hi) < 0 is known
-  double whole;       ///< [s] of the arc with flight.start_v
 };
 
 /// Newton's next tau, kept inside the bracket.
@@ -106,29 +105,6 @@ double gap_on_path(const Scene& scene, const Pair& pair, double tau, const Node&
   return pair_gap_at_end(model, pair, work.scratch).phi;
 }
 
-/// The path between the arc's start and its end, of duration f.work.arc.tau, with f.start_v there.
-/// The arc of duration lo may be known, too.
-void start_path(const Node& node, double lo, double whole, Flight& f) {
-  f.path.start();
-  if (node.has_factors) f.path.add(0, node.v);
-  if (lo > 0 && f.work.arc.tau == lo) f.path.add(lo, f.work.arc.v);
-  f.path.add(whole, f.start_v);
-}
-
-/// [s] When the gap of edges is closed that do not face each other any more at the arc's end: soon
-/// after s, where the chord hits it. Infinite where it is not.
-double closed_on_path(const Scene& scene, const Pair& pair, double s, const Node& node, Flight& f) {
-  const double whole = f.work.arc.tau;
-  start_path(node, 0, whole, f);
-  double found = std::numeric_limits<double>::infinity();
-  for (double part = 1.0 / 256; part < 1 && !std::isfinite(found); part *= 2) {
-    const double tau = (s + (1 - s) * part) * whole;
-    if (gap_on_path(scene, pair, tau, node, f) < 0) found = tau;
-  }
-  f.work.arc.v = f.start_v;
-  return found;
-}
-
 /// Where the gap closes on the path: within the bracket, of which the path knows the ends nearly.
 /// Regula falsi as the Illinois method has it (M. Dowell & P. Jarratt, BIT 11, 1971).
 double root_on_path(const Scene& scene, const Pair& pair, const Bracket& b, const Node& node,
@@ -169,12 +145,16 @@ bool solve_roughly(const Scene& scene, double tau, double rough, const Node& nod
   return is_solved;
 }
 
-/// Of an arc that contacts hold, whose gap is closed at b.hi.
+/// Of an arc that contacts hold, whose gap is closed at its end, b.hi, with f.start_v there.
 /// @return false where it comes to no end: the arc is that of before
 bool refine_on_path(const Scene& scene, const Pair& pair, Bracket b, const Node& node, Flight& f) {
   constexpr int most_arcs = 8;  // 3 or 4 are usual
+  const double whole = b.hi;
   f.before_v = f.work.arc.v;
-  start_path(node, b.lo, b.whole, f);
+  f.path.start();
+  if (node.has_factors) f.path.add(0, node.v);
+  if (b.lo > 0 && f.work.arc.tau == b.lo) f.path.add(b.lo, f.work.arc.v);
+  f.path.add(whole, f.start_v);
   for (int k = 0; k < most_arcs; ++k) {
     const double tau = root_on_path(scene, pair, b, node, f);
     f.path.velocity(tau, f.work.arc.v);
@@ -187,7 +167,7 @@ bool refine_on_path(const Scene& scene, const Pair& pair, Bracket b, const Node&
     const double phi = phi_at_end(scene, pair, f.work);
     if (std::abs(phi) <= 1e-3 * pair.touch) return true;
     (phi > 0 ? b.lo : b.hi) = tau;
-    if (b.hi - b.lo <= 4e-16 * b.whole) break;
+    if (b.hi - b.lo <= 4e-16 * whole) break;
     f.path.add(tau, f.work.arc.v);
   }
   f.work.arc.v = f.before_v;
@@ -201,7 +181,7 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
     if (refine_on_path(scene, pair, b, node, f)) return ImpactTime::found;
   }
   const double touch = pair.touch;
-  const double last = b.hi;
+  const double whole = b.hi;
   double phi_before = std::numeric_limits<double>::infinity();
   double tau_last = tau, phi_last = phi_before;
   // bisection alone takes 60 halvings to the last bit; Newton 3 to 5 steps
@@ -217,7 +197,7 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
     const double near = pair.is_stop() ? 1e-2 * touch : touch / 2;
     const bool stalled = std::abs(g.phi) <= near && std::abs(g.phi) >= phi_before / 2;
     if (std::abs(g.phi) <= 1e-3 * touch || stalled) return ImpactTime::found;
-    if (g.phi > 0 && tau >= last) return ImpactTime::missed;
+    if (g.phi > 0 && tau >= whole) return ImpactTime::missed;
     if (g.phi > 0) {
       b.lo = tau;
     } else {
@@ -230,7 +210,7 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
     const bool is_noise = b.hi_is_closed && std::abs(g.slope) * width < std::abs(g.phi) / 4;
     if (is_noise && std::abs(g.phi) <= known) return ImpactTime::found;
     // the bracket is a few ulp wide: the root is as good as doubles can tell it
-    if (width <= 4e-16 * b.whole) {
+    if (width <= 4e-16 * whole) {
       if (std::abs(g.phi) <= known) return ImpactTime::found;
       return b.hi_is_closed && faces_at_end(scene, pair, f.work) ? ImpactTime::not_located
                                                                  : ImpactTime::missed;
@@ -269,7 +249,7 @@ ImpactTime find_return(const Scene& scene, int slot, const Node& node, Memory& m
   }
   const double start = back > lo ? back : 1.5 * lo;
   const bool closes = c.phi + c.u * tau + hop.drop < 0;
-  return refine(scene, pair, std::min(start, tau), {lo, tau, closes, tau}, node, memory, f);
+  return refine(scene, pair, std::min(start, tau), {lo, tau, closes}, node, memory, f);
 }
 
 }  // namespace
@@ -291,14 +271,9 @@ ImpactTime find_impact_time(const Scene& scene, const Hit& hit, const Node& node
     work.arc.v = f.start_v;
     if (!solve(scene, tau, node, work)) return ImpactTime::not_converged;
   }
-  const double phi = gap_at_end(scene, pair, memory, f).phi;
-  Bracket b{0, tau, phi < 0, tau};
-  if (std::isinf(phi) && has_smooth_path(pair, work)) {
-    const double closed = closed_on_path(scene, pair, hit.s, node, f);
-    if (std::isfinite(closed)) b = {0, closed, true, tau};
-  }
+  const bool closed = gap_at_end(scene, pair, memory, f).phi < 0;
   work.arc.v += (hit.s - 1) * tau * memory.rate;
-  return refine(scene, pair, hit.s * tau, b, node, memory, f);
+  return refine(scene, pair, hit.s * tau, {0, tau, closed}, node, memory, f);
 }
 
 }  // namespace saltus
