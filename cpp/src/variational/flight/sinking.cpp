@@ -111,7 +111,8 @@ void find_sinking_bodies(const Scene& scene, const Node& node, Flight& f) {
     const Pair* solid = node.pool.solid(slot);
     if (pair.kind != PairKind::crossing || solid == nullptr || solid == last) continue;
     last = solid;
-    if (f.skips.passes(slot)) continue;
+    const double motion = f.broad.motion[pair.a] + f.broad.motion[pair.b];
+    if (motion <= noisy_touches * pair.touch || f.skips.passes(slot)) continue;
     const double phi = phi_at_end(scene, *solid, f.work);
     if (phi >= -noisy_touches * pair.touch) continue;
     const double before = std::min(pair_gap(scene.model.tree, node.kin, *solid).phi, 0.0);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "saltus/tree/coordinates.hpp"
+#include "variational/flight/impact_time.hpp"
 
 namespace saltus {
 namespace {
@@ -91,6 +93,29 @@ bool cut_overlaps(const Scene& scene, double tau, const Node& node, const Node& 
   return found;
 }
 
+/// Rows of bodies that are deeper in each other at `end` than at the node: parts that are far in
+/// each other face each other no more. @return true where there are some
+bool cut_bodies(const Scene& scene, double tau, const Node& node, Node& end, Unlocated& x) {
+  const ModelData& model = scene.model;
+  const Pair* last = nullptr;
+  bool found = false;
+  for (const int number : end.broad.candidates) {
+    const int slot = end.pool.slot_of(model, number);
+    const Pair* solid = end.pool.solid(slot);
+    if (solid == nullptr || std::exchange(last, solid) == solid) continue;
+    const Gap gap = pair_gap(model.tree, end.kin, *solid);
+    const double deep = -noisy_touches * solid->touch;
+    if (gap.phi >= deep) continue;
+    const double floor = std::min(pair_gap(model.tree, node.kin, *solid).phi, 0.0);
+    if (gap.phi >= floor + deep) continue;
+    x.whole = fresh_contact(scene);
+    write_contact(scene, 0, slot, *solid, gap, end, end.dense, x.whole);
+    add_cut(x.whole, (gap.phi - floor - solid->touch) / tau - dot(scene.trees, x.whole.n, x.v), x);
+    found = true;
+  }
+  return found;
+}
+
 bool overlaps_little(const Node& node, const Node& end) {
   return std::all_of(
       end.contacts.begin(), end.contacts.begin() + end.touching, [&](const Contact& c) {
@@ -124,7 +149,9 @@ void stop_until_clear(const Scene& scene, double tau, const Node& node, Node& en
   for (int round = 0; round < most_rounds; ++round) {
     stop(scene, x);
     place_end_node(scene, tau, node, end, x);
-    if (find_contacts(scene, end) && !cut_overlaps(scene, tau, node, end, x)) return;
+    if (!find_contacts(scene, end)) continue;
+    const bool overlaps = cut_overlaps(scene, tau, node, end, x);
+    if (!cut_bodies(scene, tau, node, end, x) && !overlaps) return;
   }
   x.v.setZero();
   x.p.assign(x.cuts.size(), Vec3::Zero());
@@ -189,8 +216,9 @@ Rung step_unlocated(const Scene& scene, double tau, double t, Node& node, Node& 
     if (!x.v.allFinite()) break;
     place_end_node(scene, tau, node, end, x);
     if (!find_contacts(scene, end)) break;
-    const bool is_near = round >= few_rounds && overlaps_little(node, end);
-    if (!is_near && cut_overlaps(scene, tau, node, end, x)) continue;
+    const bool is_deep = cut_bodies(scene, tau, node, end, x);
+    const bool is_near = !is_deep && round >= few_rounds && overlaps_little(node, end);
+    if ((!is_near && cut_overlaps(scene, tau, node, end, x)) || is_deep) continue;
     rung = Rung::unlocated;
     break;
   }

@@ -28,6 +28,7 @@ struct Unlocated {
   // scratch; it is rare, and may allocate
   std::vector<Contact> cuts;   ///< rows, as contacts
   std::vector<double> offset;  ///< (cuts) [m/s] u_n - n.v
+  Contact whole;               ///< of two bodies
   std::vector<Contact*> list;
   std::vector<Vec3> u, p;
   Neighbours neighbours;
