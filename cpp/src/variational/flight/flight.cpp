@@ -112,6 +112,12 @@ bool has_passed(const Scene& scene, const Node& node, Flight& f) {
   });
 }
 
+/// The arc just solved is the one that hits were sought of. Where bodies are wedged, friction has
+/// several answers, and another start may lead to another one.
+bool is_same_arc(const Flight& f) {
+  return (f.work.arc.v - f.start_v).norm() <= 1e-10 * f.start_v.norm();
+}
+
 /// What would have settled after an arc that has become shorter since has not.
 FlightOutcome arrived(const Scene& scene, const Node& node, Flight& f) {
   if (!has_passed(scene, node, f)) return FlightOutcome::impact_not_located;
@@ -192,7 +198,7 @@ FlightOutcome fly(const Scene& scene, double left, const Launch* launch, const N
       launch = nullptr;
       solved = false;
       bool changes = change_rows(scene, node, f);
-      if (!changes && !knows_hits) find_hits(scene, node, f);
+      if (!changes && !(knows_hits && is_same_arc(f))) find_hits(scene, node, f);
       if (!changes && f.hits.empty() && !work.is_rough) find_sinking_bodies(scene, node, f);
       changes = changes || rest_soft_hits(scene, node, f);
       work.rough = changes ? rough_look : 0;

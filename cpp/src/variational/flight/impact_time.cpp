@@ -212,8 +212,9 @@ ImpactTime refine(const Scene& scene, const Pair& pair, double tau, Bracket b, c
     // the bracket is a few ulp wide: the root is as good as doubles can tell it
     if (width <= 4e-16 * whole) {
       if (std::abs(g.phi) <= known) return ImpactTime::found;
-      return b.hi_is_closed && faces_at_end(scene, pair, f.work) ? ImpactTime::not_located
-                                                                 : ImpactTime::missed;
+      const bool is_open = g.phi > 0 && b.hi == whole;  // where the arc before was closed
+      const bool is_root = b.hi_is_closed && !is_open && faces_at_end(scene, pair, f.work);
+      return is_root ? ImpactTime::not_located : ImpactTime::missed;
     }
     if (!b.hi_is_closed && g.slope >= 0) return ImpactTime::missed;
     phi_before = std::abs(g.phi);
